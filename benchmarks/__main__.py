@@ -31,9 +31,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     warnings.simplefilter("ignore")
     sections: list[Section] = []
     heads = [f"- {line}" for line in [*machine.description(), *missing_compiler()]]
-    heads.append(
-        f"- {size.rounds} rounds; {machine.load():.1f} processes at work in the minute before, on average"
-    )
+    heads.append(f"- {size.rounds} rounds; {machine.load():.1f} processes at work in the minute before, on average")
     print("\n".join(heads), flush=True)
     for name in options.only or SECTIONS:
         sections.append(SECTIONS[name](size))

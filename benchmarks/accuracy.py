@@ -73,11 +73,7 @@ def fourbar_row(cosine: Number, sine: Number, design: Sequence[float] | Floats) 
 
 
 def _components(pins: list[Body]) -> list[Number]:
-    kinds: list[Callable[[Body], Number]] = [
-        lambda b: b.place,
-        lambda b: b.velocity,
-        lambda b: b.acceleration,
-    ]
+    kinds: list[Callable[[Body], Number]] = [lambda b: b.place, lambda b: b.velocity, lambda b: b.acceleration]
     return [part for kind in kinds for pin in pins for part in (kind(pin).real, kind(pin).imag)]
 
 
@@ -95,11 +91,7 @@ def sixbar_row(cosine: Number, sine: Number, design: Sequence[float] | Floats) -
 
 
 def _balance(
-    pins: list[Body],
-    turning: Sequence[Number],
-    masses: Sequence[Number],
-    inertias: Sequence[Number],
-    gravity: Number,
+    pins: list[Body], turning: Sequence[Number], masses: Sequence[Number], inertias: Sequence[Number], gravity: Number
 ) -> list[Number]:
     """Newton and Euler for crank and four links in one system: O1, A, B, B (toggle), C, O3, O5, torque."""
     mp = _mp()
@@ -108,10 +100,18 @@ def _balance(
     centres = [mp.mpc(0)] + [(p.place + q.place) / 2 for p, q in ends]
     matrix, right = mp.zeros(15, 15), mp.zeros(15, 1)
     acting = [
-        (0, 0, 1, mp.mpc(0)), (0, 1, -1, a.place), (1, 1, 1, a.place), (1, 2, 1, b.place), (2, 2, -1, b.place),
-        (2, 3, -1, b.place), (2, 5, 1, o3.place), (3, 3, 1, b.place), (3, 4, 1, c.place), (4, 4, -1, c.place),
+        (0, 0, 1, mp.mpc(0)),
+        (0, 1, -1, a.place),
+        (1, 1, 1, a.place),
+        (1, 2, 1, b.place),
+        (2, 2, -1, b.place),
+        (2, 3, -1, b.place),
+        (2, 5, 1, o3.place),
+        (3, 3, 1, b.place),
+        (3, 4, 1, c.place),
+        (4, 4, -1, c.place),
         (4, 6, 1, o5.place),
-    ]  # fmt: skip
+    ]
     for link, force, sign, place in acting:
         arm = place - centres[link]
         matrix[3 * link, 2 * force] += sign
@@ -133,9 +133,7 @@ def _largest_error(names: Sequence[str], ours: Floats, truth: list[list[Number]]
         groups.setdefault(name.removesuffix(".x").removesuffix(".y"), []).append(place)
     found = {}
     for name, places in groups.items():
-        errors = [
-            mp.norm([mp.mpf(float(ours[p, i])) - row[p] for p in places]) for i, row in enumerate(truth)
-        ]
+        errors = [mp.norm([mp.mpf(float(ours[p, i])) - row[p] for p in places]) for i, row in enumerate(truth)]
         found[name] = float(max(errors) / max(mp.norm([row[p] for p in places]) for row in truth))
     return found
 
@@ -147,9 +145,7 @@ def cycle(name: str, work: Work) -> Mapping[str, dict[str, float]]:
     row = fourbar_row if name == "fourbar" else sixbar_row
     truth = [row(mp.cos(mp.mpf(float(t))), mp.sin(mp.mpf(float(t))), work.nominal()) for t in angles]
     names = FOURBAR_OUTPUTS if name == "fourbar" else SIXBAR_OUTPUTS
-    return {
-        route: _largest_error(names, values, truth) for route, values in _routes(work, work.nominal()).items()
-    }
+    return {route: _largest_error(names, values, truth) for route, values in _routes(work, work.nominal()).items()}
 
 
 def _routes(work: Work, design: Floats, at: tuple[float, float] | None = None) -> dict[str, Floats]:

@@ -14,15 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
-FLAGS = [
-    "-O3",
-    "-march=native",
-    "-mprefer-vector-width=512",
-    "-ffast-math",
-    "-fopenmp-simd",
-    "-shared",
-    "-fPIC",
-]
+FLAGS = ["-O3", "-march=native", "-mprefer-vector-width=512", "-ffast-math", "-fopenmp-simd", "-shared", "-fPIC"]
 SOURCE = Path(__file__).parent / "kernels" / "calls.c"
 
 
@@ -30,9 +22,13 @@ class CallBlock(ctypes.Structure):
     """Arguments of a call: one address to hand over, as for the package's machine code."""
 
     _fields_ = [
-        ("designs", ctypes.c_long), ("n", ctypes.c_long), ("cosine", ctypes.c_void_p), ("sine", ctypes.c_void_p),
-        ("table", ctypes.c_void_p), ("out", ctypes.c_void_p),
-    ]  # fmt: skip
+        ("designs", ctypes.c_long),
+        ("n", ctypes.c_long),
+        ("cosine", ctypes.c_void_p),
+        ("sine", ctypes.c_void_p),
+        ("table", ctypes.c_void_p),
+        ("out", ctypes.c_void_p),
+    ]
 
 
 def compiler() -> str | None:

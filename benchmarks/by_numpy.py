@@ -72,12 +72,7 @@ def fourbar(cosine: Floats, sine: Floats, design: Values) -> tuple[Values, ...]:
 
 
 def dyad_forces(
-    d: Dyad,
-    p: tuple[Values, ...],
-    masses: Values,
-    inertias: Values,
-    gravity: Values,
-    load: tuple[Values, Values],
+    d: Dyad, p: tuple[Values, ...], masses: Values, inertias: Values, gravity: Values, load: tuple[Values, Values]
 ) -> tuple[tuple[Values, Values], ...]:
     """Forces on the first link at P and B, and on the second at Q; ``load``: on pin B, taken by the second link."""
     (m1, m2), (j1, j2) = masses, inertias

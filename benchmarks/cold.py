@@ -56,9 +56,7 @@ def measure(rounds: int) -> Rounds:
         folder = environment["PYTHONPYCACHEPREFIX"]
         own = {named(command): _command(_program(command, folder)) for command in COMMANDS}
         commands = {BARE: _command("pass"), NUMPY: _command("import numpy"), **own}
-        candidates = [
-            Candidate(name, partial(_call, command, environment)) for name, command in commands.items()
-        ]
+        candidates = [Candidate(name, partial(_call, command, environment)) for name, command in commands.items()]
         return in_turns(candidates, rounds, 0.0)
 
 
@@ -84,10 +82,6 @@ def _by_owner(report: str) -> dict[str, float]:
     found: defaultdict[str, float] = defaultdict(float)
     for match in _LINE.finditer(report):
         top = match[2].split(".")[0]
-        own = (
-            top
-            if top in ("linkwright", "numpy") or (top in installed and not top.endswith("dist-info"))
-            else ""
-        )
+        own = top if top in ("linkwright", "numpy") or (top in installed and not top.endswith("dist-info")) else ""
         found[own or "the standard library"] += float(match[1]) / 1e3
     return dict(sorted(found.items(), key=lambda entry: -entry[1]))

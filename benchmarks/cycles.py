@@ -19,14 +19,7 @@ from benchmarks.timing import Candidate
 
 #: Metrics that are found of many designs at once; a machine has those of them that apply.
 METRICS = (
-    *(
-        "crank_angle_between_limits",
-        "quick_return_ratio",
-        "swing_angle",
-        "stroke",
-        "peak_acceleration",
-        "peak_jerk",
-    ),
+    *("crank_angle_between_limits", "quick_return_ratio", "swing_angle", "stroke", "peak_acceleration", "peak_jerk"),
     *("pressure_angle", "transmission_angle", "singularity", "energy_fluctuation", "flywheel", "mean_power"),
     *("peak_power", "peak_input_torque", "rms_input_torque", "mechanical_advantage", "velocity_ratio"),
     *("peak_reaction", "rms_reaction", "peak_shaking_force", "peak_shaking_moment"),
@@ -73,9 +66,7 @@ def rubbing() -> lw.Mechanism:
     return replace(crusher, joints=pins)
 
 
-def around(
-    mechanism: lw.Mechanism, names: tuple[str, ...], count: int, spread: float = 0.01
-) -> dict[str, Floats]:
+def around(mechanism: lw.Mechanism, names: tuple[str, ...], count: int, spread: float = 0.01) -> dict[str, Floats]:
     """So many designs, dimensions each changed by ``spread`` at most."""
     random = np.random.default_rng(0)
     return {name: mechanism.dimension(name) * random.uniform(1 - spread, 1 + spread, count) for name in names}
@@ -124,17 +115,10 @@ class CycleWork:
     def _one(self) -> object:
         self.edits += 1
         length = self.rubbing.dimension(LENGTHS[1]) * (1.0 + 1e-9 * self.edits)
-        return lw.metrics(
-            lw.solve_forces(self.rubbing.with_dimensions({LENGTHS[1]: length}), steps=self.steps)
-        )
+        return lw.metrics(lw.solve_forces(self.rubbing.with_dimensions({LENGTHS[1]: length}), steps=self.steps))
 
     def _sweep(
-        self,
-        name: str,
-        mechanism: lw.Mechanism,
-        vary: tuple[str, ...],
-        outputs: tuple[str, ...] | None,
-        count: int,
+        self, name: str, mechanism: lw.Mechanism, vary: tuple[str, ...], outputs: tuple[str, ...] | None, count: int
     ) -> Candidate:
         columns, asked = around(mechanism, vary, count), list(outputs or applying(mechanism))
         run = partial(lw.sweep, mechanism, columns, outputs=asked, steps=self.steps, threads=1)

@@ -21,13 +21,33 @@ from linkwright.synthesis.free_curve.topology import node_paths, random_structur
 Curve = tuple[str, NDArray[np.complex128], bool]
 #: Strokes of letters drawn without lifting the pen, on a grid of 4 x 6; "o" after a place rounds that corner.
 STROKES = {
-    "A": "00 26 40 32 12", "B": "00 06 36o 33o 03 33o 40o 00", "C": "45 36o 06o 00o 30o 41", "D": "00 06 46o 40o 00",
-    "E": "46 06 03 33 03 00 40", "F": "00 03 33 03 06 46", "G": "45 36o 06o 00o 40o 43 23", "H": "00 06 03 43 46 40",
-    "I": "06 46 26 20 00 40", "J": "46 40o 00o 02", "K": "00 06 03 46 03 40", "L": "06 00 40", "M": "00 06 23 46 40",
-    "N": "00 06 40 46", "O": "20 40o 46o 06o 00o 20", "P": "00 06 46o 43o 03", "Q": "22 40 20 00o 06o 46o 40o 20",
-    "R": "00 06 46o 43o 03 40", "S": "45 46o 06o 03o 43o 40o 00o 01", "T": "06 46 26 20", "U": "06 00o 40o 46",
-    "V": "06 20 46", "W": "06 10 24 30 46", "X": "00 46 23 06 40", "Y": "06 23 46 23 20", "Z": "06 46 00 40",
-}  # fmt: skip
+    "A": "00 26 40 32 12",
+    "B": "00 06 36o 33o 03 33o 40o 00",
+    "C": "45 36o 06o 00o 30o 41",
+    "D": "00 06 46o 40o 00",
+    "E": "46 06 03 33 03 00 40",
+    "F": "00 03 33 03 06 46",
+    "G": "45 36o 06o 00o 40o 43 23",
+    "H": "00 06 03 43 46 40",
+    "I": "06 46 26 20 00 40",
+    "J": "46 40o 00o 02",
+    "K": "00 06 03 46 03 40",
+    "L": "06 00 40",
+    "M": "00 06 23 46 40",
+    "N": "00 06 40 46",
+    "O": "20 40o 46o 06o 00o 20",
+    "P": "00 06 46o 43o 03",
+    "Q": "22 40 20 00o 06o 46o 40o 20",
+    "R": "00 06 46o 43o 03 40",
+    "S": "45 46o 06o 03o 43o 40o 00o 01",
+    "T": "06 46 26 20",
+    "U": "06 00o 40o 46",
+    "V": "06 20 46",
+    "W": "06 10 24 30 46",
+    "X": "00 46 23 06 40",
+    "Y": "06 23 46 23 20",
+    "Z": "06 46 00 40",
+}
 
 
 def letter(strokes: str) -> NDArray[np.complex128]:
@@ -116,9 +136,7 @@ class _Cores:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Prints a row for each curve and the means."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.free_curves", description=__doc__)
-    parser.add_argument(
-        "letters", nargs="*", help="letters drawn in one stroke; all where no curves are named"
-    )
+    parser.add_argument("letters", nargs="*", help="letters drawn in one stroke; all where no curves are named")
     parser.add_argument("--outlines", default="", help="characters whose outlines are drawn")
     parser.add_argument("--linkages", type=int, default=0, help="number of curves of random linkages")
     parser.add_argument("--joints", type=int, default=searching.JOINTS[-1], help="most joints")

@@ -26,9 +26,7 @@ class GradientWork:
         four = name == "fourbar"
         self.program: Program = self._path_error() if four else self._forces()
         designs = fourbar_designs(count) if four else sixbar_designs(work, count)
-        self.wrt = tuple(
-            each for each in self.program.parameters if not each.startswith(("mode:", "driver."))
-        )
+        self.wrt = tuple(each for each in self.program.parameters if not each.startswith(("mode:", "driver.")))
         self.gradient = Gradient(self.program, Reduction("objective", "mean"), self.wrt)
         self.table = work.table(self.program, designs)
         own = [self.program.parameters.index(each) for each in self.gradient.parameters]

@@ -110,8 +110,7 @@ def table(rounds: Rounds, counts: tuple[int, ...]) -> tuple[list[str], list[list
     """Milliseconds, shortest rounds, by step and number of dyads."""
     present = [what for what in (STRUCTURE, TRACE, COMPILE, EVALUATE) if _named(what, counts[0]) in rounds]
     rows = [
-        [what, *(f"{1e3 * rounds.timings[_named(what, count)].best:.3g}" for count in counts)]
-        for what in present
+        [what, *(f"{1e3 * rounds.timings[_named(what, count)].best:.3g}" for count in counts)] for what in present
     ]
     return ["best, ms", *(f"{count} dyads" for count in counts)], rows
 

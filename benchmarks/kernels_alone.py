@@ -77,6 +77,5 @@ def disagreement(name: str, work: Work) -> dict[str, float]:
         run()
     largest = np.abs(truth).max(axis=1)
     return {
-        way: float((np.abs(rows[: len(truth)] - truth).max(axis=1) / largest).max())
-        for way, rows in ways.items()
+        way: float((np.abs(rows[: len(truth)] - truth).max(axis=1) / largest).max()) for way, rows in ways.items()
     }

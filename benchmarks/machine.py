@@ -39,8 +39,7 @@ def _compiler() -> str:
     if gcc is None:
         return "no gcc"
     return (
-        "gcc "
-        + subprocess.run([gcc, "-dumpfullversion"], check=True, capture_output=True, text=True).stdout.strip()
+        "gcc " + subprocess.run([gcc, "-dumpfullversion"], check=True, capture_output=True, text=True).stdout.strip()
     )
 
 

@@ -47,9 +47,7 @@ class NumbersWork:
             METRICS_OF: lambda: lw.metrics(self._fresh()),
             RUNNING: lambda: lw.steady_running(self._fresh(), fluctuation=0.02),
             COMPARED: lambda: lw.compare([self.mechanism, self.other], steps=self.steps).text(),
-            EDITED: lambda: lw.solve_forces(
-                self.mechanism.with_dimensions({LINK: self._edit()}), steps=self.steps
-            ),
+            EDITED: lambda: lw.solve_forces(self.mechanism.with_dimensions({LINK: self._edit()}), steps=self.steps),
             PREPARED: lambda: self.prepared.solve({LINK: self._edit()}),
             UNLOADED: lambda: self.bare.solve({LINK: self._edit()}),
             BY_NUMPY: lambda: self.by_numpy.solve({LINK: self._edit()}),

@@ -64,9 +64,7 @@ class PathWork:
     def disagreement(self) -> float:
         """Largest difference, as a share of the gradient's size."""
         (value, gradient), (wanted, slopes) = self.ours(self.start), self.by_hand()
-        return float(
-            max(abs(value - wanted) / wanted, np.abs(gradient - slopes).max() / np.abs(slopes).max())
-        )
+        return float(max(abs(value - wanted) / wanted, np.abs(gradient - slopes).max() / np.abs(slopes).max()))
 
 
 class TorqueWork:

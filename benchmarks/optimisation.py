@@ -27,19 +27,29 @@ from linkwright.designs.optimise.task import Judged, Task
 
 CRUSHER = "gallery:jaw_crusher_sixbar"
 VARY = {
-    "pitman.length": "1.15..1.35 m", "toggle.length": "1.05..1.25 m", "rocker.length": "0.9..1.1 m",
-    "crank.length": "0.08..0.12 m", "frame.O3.x": "0.85..1.05 m", "frame.O3.y": "-1.1..-0.9 m",
-}  # fmt: skip
+    "pitman.length": "1.15..1.35 m",
+    "toggle.length": "1.05..1.25 m",
+    "rocker.length": "0.9..1.1 m",
+    "crank.length": "0.08..0.12 m",
+    "frame.O3.x": "0.85..1.05 m",
+    "frame.O3.y": "-1.1..-0.9 m",
+}
 KEEP = {
     "jaw.angle range": "same within 1 %",
     "jaw.angle max": "same within 0.2 deg",
     "transmission_angle": "at least 30 deg",
 }
 PATH = {
-    "frame.O1.x": "-2..2 m", "frame.O1.y": "-2..2 m", "frame.O2.x": "1..6 m", "frame.O2.y": "-2..3 m",
-    "crank.length": "0.3..1.6 m", "coupler.length": "1..6 m", "rocker.length": "1..6 m",
-    "coupler.P.x": "-1..5 m", "coupler.P.y": "-2..3 m",
-}  # fmt: skip
+    "frame.O1.x": "-2..2 m",
+    "frame.O1.y": "-2..2 m",
+    "frame.O2.x": "1..6 m",
+    "frame.O2.y": "-2..3 m",
+    "crank.length": "0.3..1.6 m",
+    "coupler.length": "1..6 m",
+    "rocker.length": "1..6 m",
+    "coupler.P.x": "-1..5 m",
+    "coupler.P.y": "-2..3 m",
+}
 Floats = NDArray[np.float64]
 
 
@@ -147,10 +157,15 @@ def by_scipy(task: Task, race: Race, together: bool) -> tuple[Floats, int]:
     manner: dict[str, Any] = {"vectorized": True, "updating": "deferred"} if together else {}
     with suppress(Over):
         differential_evolution(
-            value if together else lambda x: float(value(x)[0]), [(0, 1)] * len(task.problem.variables),
-            x0=np.clip(task.inverse(task.problem.start), 0, 1), rng=0, polish=False, maxiter=100000, tol=1e-9,
+            value if together else lambda x: float(value(x)[0]),
+            [(0, 1)] * len(task.problem.variables),
+            x0=np.clip(task.inverse(task.problem.start), 0, 1),
+            rng=0,
+            polish=False,
+            maxiter=100000,
+            tol=1e-9,
             **manner,
-        )  # fmt: skip
+        )
     return np.array([best]), counted[0]
 
 
@@ -197,12 +212,12 @@ def compared(name: str, mechanism: lw.Mechanism, settings: dict[str, Any], times
     race = Race(ours, worst, times * spent)
     known = watched.known(race)
     print(f"{name}: {', '.join(texts)}; ours as good as in the end after {known:.2f} of {spent:.2f} CPU s")
-    runs: list[tuple[str, Callable[[], tuple[Floats, int]]]] = [
-        ("lw.optimize", lambda: (ours, found.evaluations))
-    ]
+    runs: list[tuple[str, Callable[[], tuple[Floats, int]]]] = [("lw.optimize", lambda: (ours, found.evaluations))]
     if len(texts) == 1:
-        runs += [("scipy DE, one sweep a generation", lambda: by_scipy(task, race, True)),
-                 ("scipy DE, one design at a time", lambda: by_scipy(task, race, False))]  # fmt: skip
+        runs += [
+            ("scipy DE, one sweep a generation", lambda: by_scipy(task, race, True)),
+            ("scipy DE, one design at a time", lambda: by_scipy(task, race, False)),
+        ]
     runs.append(("pymoo NSGA-II, one sweep a generation", lambda: by_pymoo(task, race)))
     for label, run in runs:
         race.begin = time.process_time()
@@ -221,9 +236,7 @@ def compared(name: str, mechanism: lw.Mechanism, settings: dict[str, Any], times
 def main(arguments: Sequence[str] | None = None) -> int:
     """Prints two problems of a crusher and two of a path."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.optimisation", description=__doc__)
-    parser.add_argument(
-        "--times", type=float, default=20.0, help="processor seconds of the others in parts of ours"
-    )
+    parser.add_argument("--times", type=float, default=20.0, help="processor seconds of the others in parts of ours")
     options = parser.parse_args(arguments)
     for module in ("scipy.optimize", "pymoo.algorithms.moo.nsga2"):  # loaded on nobody's time
         with suppress(ImportError):
@@ -232,18 +245,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
     shared = {"vary": VARY, "keep": KEEP}
     compared("lower torque, same jaw", crusher, shared | {"minimize": "peak_input_torque"}, options.times)
     compared(
-        "torque and flywheel, same jaw", crusher, shared | {"minimize": ["peak_input_torque", "flywheel"]},
+        "torque and flywheel, same jaw",
+        crusher,
+        shared | {"minimize": ["peak_input_torque", "flywheel"]},
         options.times,
-    )  # fmt: skip
+    )
     turn = np.linspace(0, 2 * np.pi, 37)[:-1]
     oval = np.column_stack([2.6 + 1.1 * np.cos(turn), 1.6 + 0.5 * np.sin(turn + 0.4)])
     path = {"vary": PATH, "keep": {"transmission_angle": "at least 35 deg"}}
     shape = lw.PathError("coupler.P", oval)
     compared("an oval", fourbar, path | {"minimize": shape}, options.times)
     compared(
-        "an oval and little acceleration", fourbar, path | {"minimize": [shape, "peak_acceleration coupler.P"]},
+        "an oval and little acceleration",
+        fourbar,
+        path | {"minimize": [shape, "peak_acceleration coupler.P"]},
         options.times,
-    )  # fmt: skip
+    )
     return 0
 
 

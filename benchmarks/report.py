@@ -49,9 +49,7 @@ class Section:
         return f"### {self.title}\n\n{table(self.header, self.rows)}\n{remarks}".rstrip() + "\n"
 
 
-def timings(
-    rounds: Rounds, reference: str, unit: str, configurations: int = 0
-) -> tuple[list[str], list[list[str]]]:
+def timings(rounds: Rounds, reference: str, unit: str, configurations: int = 0) -> tuple[list[str], list[list[str]]]:
     """Header and rows of a table of times; ratios to ``reference`` are medians over the rounds."""
     scale = {"µs": 1e6, "ms": 1e3, "s": 1.0}[unit]
     rate = ["million configurations/s"] if configurations else []
@@ -59,11 +57,7 @@ def timings(
     rows = []
     for name, timing in rounds.timings.items():
         speed = [short(configurations / timing.median / 1e6)] if configurations else []
-        numbers = [
-            short(scale * timing.median),
-            short(scale * timing.best),
-            short(rounds.ratio(name, reference)),
-        ]
+        numbers = [short(scale * timing.median), short(scale * timing.best), short(rounds.ratio(name, reference))]
         rows.append([name, *numbers, *speed, timing.note])
     return header, rows
 
@@ -82,8 +76,7 @@ def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     lines = [[line[k] for k in used] for line in lines]
     widths = [max(_width(line[k]) for line in lines) for k in range(len(used))]
     texts = [
-        "| " + " | ".join(_padded(cell, w) for cell, w in zip(line, widths, strict=True)) + " |"
-        for line in lines
+        "| " + " | ".join(_padded(cell, w) for cell, w in zip(line, widths, strict=True)) + " |" for line in lines
     ]
     rule = "|" + "|".join("-" * (w + 2) for w in widths) + "|"
     return "\n".join([texts[0], rule, *texts[1:]])

@@ -109,9 +109,7 @@ def sweeps(name: str, size: Size) -> Section:
     if COMPILED in rounds:
         goals.append(Goal(f"{label} two threads ÷ one, speed", rounds.ratio(COMPILED, TWO), 1.8, True))
     if "pylinkage" in rounds and COMPILED in rounds:
-        goals.append(
-            Goal(f"{label} speed ÷ speed of pylinkage", rounds.ratio("pylinkage", COMPILED), 150.0, True)
-        )
+        goals.append(Goal(f"{label} speed ÷ speed of pylinkage", rounds.ratio("pylinkage", COMPILED), 150.0, True))
     configurations = len(sweep.designs) * size.steps
     title = f"W4: {len(sweep.designs)} {what}, {size.steps} positions"
     header, rows = timings(rounds, _reference(candidates), "ms", configurations)
@@ -172,11 +170,7 @@ def numbers(size: Size) -> Section:
     work = design_numbers.NumbersWork(size.steps)
     rounds = in_turns(work.candidates(), size.rounds, size.slice_s)
     header, rows = timings(rounds, HAND, "ms")
-    bounds = {
-        design_numbers.METRICS_OF: 45.0,
-        design_numbers.RUNNING: 40.0,
-        design_numbers.COMPARED: 120.0,
-    }
+    bounds = {design_numbers.METRICS_OF: 45.0, design_numbers.RUNNING: 40.0, design_numbers.COMPARED: 120.0}
     goals = [
         Goal(f"{name} ÷ NumPy cycle of the six-bar by hand, time", rounds.ratio(name, HAND), bound, False)
         for name, bound in bounds.items()
@@ -218,12 +212,7 @@ def growing(size: Size) -> Section:
     rounds = growth.measure(size.chains, size.steps, min(size.rounds, 5), size.slice_s)
     header, rows = growth.table(rounds, size.chains)
     goals = [
-        Goal(
-            f"{row[0]}: power of n by which its time grows",
-            growth.exponent(rounds, row[0], few, many),
-            1.15,
-            False,
-        )
+        Goal(f"{row[0]}: power of n by which its time grows", growth.exponent(rounds, row[0], few, many), 1.15, False)
         for row in rows
     ]
     if 100 in size.chains and any(row[0] == growth.COMPILE for row in rows):
@@ -278,9 +267,7 @@ def accuracy(size: Size) -> Section:
                 strict=True,
             )
         )
-        rows.append(
-            [f"dead point nearly reached, κ = {short(near.condition)}", f"{max(near.errors):.1e}", told]
-        )
+        rows.append([f"dead point nearly reached, κ = {short(near.condition)}", f"{max(near.errors):.1e}", told])
     title = "Accuracy against an evaluation with 50 digits"
     header = ["", "largest relative error", "where; u = 1.1e-16"]
     goal = Goal("relative error away from singular positions", worst, 1e-12, False)

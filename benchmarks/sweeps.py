@@ -28,9 +28,7 @@ class SweepWork:
         four = name == "fourbar"
         metrics = fourbar_metrics(work.solver.outputs) if four else sixbar_metrics(work)
         self.program: Program = work.reduced(metrics)
-        self.reductions = [
-            Reduction(metric, "min" if metric == "transmission" else "max") for metric in metrics
-        ]
+        self.reductions = [Reduction(metric, "min" if metric == "transmission" else "max") for metric in metrics]
         self.designs: Floats = fourbar_designs(count) if four else sixbar_designs(work, count)
         self.table = work.table(self.program, self.designs)
         self.arrays = {key: work.positions.arrays[key] for key in self.program.positions}

@@ -2,22 +2,15 @@
 
 #: Kinds of loads, by their docstrings.
 LOADS = {
-    "A viscous damper between two points: tension F = c·dL/dt, in N, positive where it pulls its ends together.":
-        "两点之间的粘性阻尼器：拉力 F = c·dL/dt，单位 N，把两端拉近时为正。",
-    "A force on the link ``on`` at its point ``at``, in N: F = magnitude · unit vector of its direction.":
-        "作用在构件 ``on`` 的点 ``at`` 上的力，单位 N：F = 大小 · 方向的单位向量。",
-    "Pressure p on the block of a prismatic joint: force F = p·A along the guide, in N, and -F on the guide's link.":
-        "作用在移动副滑块上的压力 p：沿导路的力 F = p·A，单位 N；导路所在的构件受 -F。",
+    "A viscous damper between two points: tension F = c·dL/dt, in N, positive where it pulls its ends together.": "两点之间的粘性阻尼器：拉力 F = c·dL/dt，单位 N，把两端拉近时为正。",
+    "A force on the link ``on`` at its point ``at``, in N: F = magnitude · unit vector of its direction.": "作用在构件 ``on`` 的点 ``at`` 上的力，单位 N：F = 大小 · 方向的单位向量。",
+    "Pressure p on the block of a prismatic joint: force F = p·A along the guide, in N, and -F on the guide's link.": "作用在移动副滑块上的压力 p：沿导路的力 F = p·A，单位 N；导路所在的构件受 -F。",
     "A linear spring between two points: tension F = F0 + k·(L - L0), in N, positive where it pulls its "
-    "ends together.":
-        "两点之间的线性弹簧：拉力 F = F0 + k·(L - L0)，单位 N，把两端拉近时为正。",
-    "A torque M on the link ``on``, N·m, counter-clockwise positive, and -M on the link ``against``.":
-        "作用在构件 ``on`` 上的力矩 M，单位 N·m，逆时针为正；构件 ``against`` 受 -M。",
-    "A viscous torsion damper between links [a, b]: torque on b is M = -c·(ω_b - ω_a), in N·m, and -M on a.":
-        "构件 [a, b] 之间的扭转阻尼器：b 受 M = -c·(ω_b - ω_a)，单位 N·m，a 受 -M。",
-    "A torsion spring between links [a, b]: torque on b is M = -(M0 + k·(φ - φ0)), in N·m, and -M on a.":
-        "构件 [a, b] 之间的扭簧：b 受 M = -(M0 + k·(φ - φ0))，单位 N·m，a 受 -M。",
-}  # fmt: skip
+    "ends together.": "两点之间的线性弹簧：拉力 F = F0 + k·(L - L0)，单位 N，把两端拉近时为正。",
+    "A torque M on the link ``on``, N·m, counter-clockwise positive, and -M on the link ``against``.": "作用在构件 ``on`` 上的力矩 M，单位 N·m，逆时针为正；构件 ``against`` 受 -M。",
+    "A viscous torsion damper between links [a, b]: torque on b is M = -c·(ω_b - ω_a), in N·m, and -M on a.": "构件 [a, b] 之间的扭转阻尼器：b 受 M = -c·(ω_b - ω_a)，单位 N·m，a 受 -M。",
+    "A torsion spring between links [a, b]: torque on b is M = -(M0 + k·(φ - φ0)), in N·m, and -M on a.": "构件 [a, b] 之间的扭簧：b 受 M = -(M0 + k·(φ - φ0))，单位 N·m，a 受 -M。",
+}
 #: Public names.
 NAMES = {
     "Cam": "凸轮：运动循环、从动件、尺寸与限制",

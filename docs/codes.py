@@ -13,10 +13,23 @@ import linkwright
 
 SOURCE = Path(linkwright.__file__).parent
 #: Index of the code among the arguments of calls that report a finding.
-PLACES = {"Saying": 0, "Refused": 3,
-    "Finding": 5, "finding": 3, "error": 4, "remark": 3, "Remark": 4, "_remarks": 4, "_refuse": 3,
-    "add": 3, "_wrong": 2, "wrong": 2, "say": 3, "ExpressionError": 4, "note": 2,
-}  # fmt: skip
+PLACES = {
+    "Saying": 0,
+    "Refused": 3,
+    "Finding": 5,
+    "finding": 3,
+    "error": 4,
+    "remark": 3,
+    "Remark": 4,
+    "_remarks": 4,
+    "_refuse": 3,
+    "add": 3,
+    "_wrong": 2,
+    "wrong": 2,
+    "say": 3,
+    "ExpressionError": 4,
+    "note": 2,
+}
 SHORT = re.compile(r"[a-z]+(?:-[a-z]+)*")
 
 #: What the codes of findings about files mean, in English and Chinese.
@@ -24,10 +37,7 @@ MEANINGS: Mapping[str, tuple[str, str]] = {
     "alias": ("a YAML alias without its anchor, or within it", "YAML 别名没有锚点，或在自己的锚点之内"),
     "ambiguous": ("a text with two meanings", "有两种读法的内容"),
     "angles-for-places": ("angles where lengths are asked for", "应给长度而给了角度"),
-    "assembly": (
-        "a dyad without assembly word or drawing",
-        "没有装配词也没有装配图说明杆组的装配方式",
-    ),
+    "assembly": ("a dyad without assembly word or drawing", "没有装配词也没有装配图说明杆组的装配方式"),
     "at-odds": ("two contradictory numbers", "两个数互相矛盾"),
     "bad-positions": ("invalid number of positions", "不是位置数"),
     "bad-range": ("invalid range of a dimension", "不是尺寸的变化范围"),
@@ -73,10 +83,7 @@ MEANINGS: Mapping[str, tuple[str, str]] = {
     "no-limit": ("invalid limit of an output", "不是输出的极限"),
     "no-list": ("expected a list", "需要列表"),
     "no-mass-centre": ("a mass without its centre", "有质量而没有质心"),
-    "no-motion": (
-        "a load that never acts, since the output does not move so",
-        "输出没有这样的运动，载荷从不作用",
-    ),
+    "no-motion": ("a load that never acts, since the output does not move so", "输出没有这样的运动，载荷从不作用"),
     "no-number": ("unknown output or metric", "机构没有的量"),
     "no-section": ("unknown section of a report", "报告没有这一节"),
     "no-source": ("unknown source of a citation", "没有文中引用的参考文献"),
@@ -90,10 +97,7 @@ MEANINGS: Mapping[str, tuple[str, str]] = {
     "not-connected": ("a link without joints", "构件没有与别的构件相连"),
     "not-finite": ("a number that is not finite", "不是有限的数"),
     "nothing-varies": ("an optimisation without variables", "优化没有变量"),
-    "old-key": (
-        "a renamed key; the file is still read",
-        "键已改名，文件照常读取",
-    ),
+    "old-key": ("a renamed key; the file is still read", "键已改名，文件照常读取"),
     "one-point": ("a link with a single joint", "只有一个运动副的构件"),
     "quantity": ("invalid quantity", "不是物理量"),
     "range": ("a number out of range", "数超出允许的范围"),
@@ -279,11 +283,7 @@ def _raises(node: ast.AST) -> TypeGuard[ast.Call]:
 @cache
 def classes() -> frozenset[str]:
     """The names of error classes whose code is that of their message."""
-    bases = {
-        node.name: [_name(each) for each in node.bases]
-        for _, node in nodes()
-        if isinstance(node, ast.ClassDef)
-    }
+    bases = {node.name: [_name(each) for each in node.bases] for _, node in nodes() if isinstance(node, ast.ClassDef)}
     found = {"LinkwrightError"}
     while more := {name for name, own in bases.items() if found.intersection(own)} - found:
         found |= more

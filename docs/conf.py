@@ -22,8 +22,10 @@ author = "Linkwright contributors"
 copyright = "2026, Linkwright contributors"
 extensions = ["myst_parser", "sphinx_design", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 autodoc_default_options = {
-    "members": True, "inherited-members": "BaseException, Exception, tuple", "member-order": "bysource",
-}  # fmt: skip
+    "members": True,
+    "inherited-members": "BaseException, Exception, tuple",
+    "member-order": "bysource",
+}
 autodoc_typehints_format = "short"
 autodoc_type_aliases = {"ArrayLike": "ArrayLike", "Floats": "Floats"}
 maximum_signature_line_length = 100
@@ -44,10 +46,14 @@ html_show_sourcelink = False
 html_copy_source = False
 html_sidebars = {
     "**": [
-        "sidebar/brand.html", "sidebar/language.html", "sidebar/search.html", "sidebar/scroll-start.html",
-        "sidebar/navigation.html", "sidebar/scroll-end.html",
+        "sidebar/brand.html",
+        "sidebar/language.html",
+        "sidebar/search.html",
+        "sidebar/scroll-start.html",
+        "sidebar/navigation.html",
+        "sidebar/scroll-end.html",
     ]
-}  # fmt: skip
+}
 html_theme_options = {
     "light_css_variables": {"color-brand-primary": "#1565c0", "color-brand-content": "#1565c0"},
     "dark_css_variables": {"color-brand-primary": "#7cb8ff", "color-brand-content": "#7cb8ff"},
@@ -73,10 +79,16 @@ def language_link(app: Any, name: str, template: str, context: dict[str, Any], d
 
 #: Texts of the theme on Chinese pages; texts of its footer that are not listed are in English.
 THEME = {
-    "Search": "搜索", "Next": "下一页", "Previous": "上一页", "Home": "首页",
-    "On this page": "本页内容", "Contents": "目录",
-    "Back to top": "回到页首", "Index": "索引", "Skip to content": "跳到正文",
-}  # fmt: skip
+    "Search": "搜索",
+    "Next": "下一页",
+    "Previous": "上一页",
+    "Home": "首页",
+    "On this page": "本页内容",
+    "Contents": "目录",
+    "Back to top": "回到页首",
+    "Index": "索引",
+    "Skip to content": "跳到正文",
+}
 
 
 def theme_words(app: Any, name: str, template: str, context: dict[str, Any], doctree: Any) -> None:
@@ -138,21 +150,14 @@ def joined_lines(app: Any, name: str, source: list[str]) -> None:
     for line in source[0].split("\n"):
         code ^= line.lstrip().startswith("```")
         before = joined[-1] if joined else ""
-        if (
-            not code
-            and not before.startswith("#")
-            and re.search(f"{CHINESE}$", before)
-            and re.match(CHINESE, line)
-        ):
+        if not code and not before.startswith("#") and re.search(f"{CHINESE}$", before) and re.match(CHINESE, line):
             joined[-1] = before + line
         else:
             joined.append(line)
     source[0] = "\n".join(joined)
 
 
-def sections_of_docstrings(
-    app: Any, what: str, name: str, value: Any, options: Any, lines: list[str]
-) -> None:
+def sections_of_docstrings(app: Any, what: str, name: str, value: Any, options: Any, lines: list[str]) -> None:
     """Google's sections as fields; in properties, Napoleon would take what is before a colon for a type."""
     if what != "property":
         lines[:] = GoogleDocstring(lines, app.config, app, what, name, value, options).lines()
@@ -162,9 +167,7 @@ def short_signature(
     app: Any, what: str, name: str, value: Any, options: Any, arguments: str | None, returned: str | None
 ) -> tuple[str | None, str | None]:
     """Aliases by name; ``...`` for defaults from a factory, so that Sphinx can parse and wrap the signature."""
-    texts = (
-        text and re.sub(r"TypeAliasForwardRef\('(\w+)'\)", r"\1", text) for text in (arguments, returned)
-    )
+    texts = (text and re.sub(r"TypeAliasForwardRef\('(\w+)'\)", r"\1", text) for text in (arguments, returned))
     arguments, returned = texts
     return arguments and arguments.replace("<factory>", "..."), returned
 

@@ -71,9 +71,7 @@ def make() -> None:
         made[f"{language}/gallery/index"] = "\n".join(gallery_index(language))
         for name in gallery.names():
             made[f"{language}/gallery/{name}"] = "\n".join(gallery_page(name, language))
-        made[f"{language}/validation_table"] = (
-            f"{compared.tables(language, sources=True)[0].markdown(language)}\n"
-        )
+        made[f"{language}/validation_table"] = f"{compared.tables(language, sources=True)[0].markdown(language)}\n"
     pages = {MADE / f"{name}.markdown": text for name, text in made.items()}
     for path in set(MADE.rglob("*.markdown")) - set(pages):
         path.unlink()  # of an earlier build

@@ -27,8 +27,6 @@ design = cam.solve()
 print(design.text())
 
 profile = design.profile(720)  # (720, 2) m, exact points
-print(
-    f"base circle {design.cam.base_radius * 1e3:.2f} mm, largest radius {np.hypot(*profile.T).max() * 1e3:.2f} mm"
-)
+print(f"base circle {design.cam.base_radius * 1e3:.2f} mm, largest radius {np.hypot(*profile.T).max() * 1e3:.2f} mm")
 print("written:", design.save_profile("cam.dxf", force=True))
 print("written:", design.draw(RISE / 2).save("cam.svg", force=True))

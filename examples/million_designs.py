@@ -33,11 +33,7 @@ found = minimize(
     jac=True,
     method="SLSQP",
     bounds=bounds,
-    constraints={
-        "type": "ineq",
-        "fun": lambda x: transmission(x)[0] - ANGLE,
-        "jac": lambda x: transmission(x)[1],
-    },
+    constraints={"type": "ineq", "fun": lambda x: transmission(x)[0] - ANGLE, "jac": lambda x: transmission(x)[1]},
     options={"ftol": 1e-12},
 )
 print(f"by gradients: {np.degrees(-found.fun):.3f}° in {found.nit} steps, lengths {found.x.round(4)} m")

@@ -117,11 +117,7 @@ def _judged(mechanism: lw.Mechanism, unjudged: Counter[str]) -> Iterator[Judged]
         difference, slack = abs(value - bounded.value), bounded.slack + ROUNDING * max(largest[row.unit], 1.0)
         said = f"{row.value!r}, by brute force {bounded.value!r} ± {slack:.1e}"
         yield Judged(
-            row.metric,
-            row.subject,
-            difference / scale,
-            bounded.slack / scale,
-            "" if difference <= slack else said,
+            row.metric, row.subject, difference / scale, bounded.slack / scale, "" if difference <= slack else said
         )
 
 
@@ -154,9 +150,7 @@ def table(found: list[Verdict]) -> str:
     for each in found:
         for value in each.values:
             by_metric[value.metric].append(value)
-    lines = [
-        f"{'metric':<28}{'values':>8}{'worst':>10}{'its slack':>10}{'smooth':>8}{'worst':>10}{'wrong':>7}"
-    ]
+    lines = [f"{'metric':<28}{'values':>8}{'worst':>10}{'its slack':>10}{'smooth':>8}{'worst':>10}{'wrong':>7}"]
     for metric, values in sorted(by_metric.items()):
         worst = max(values, key=lambda one: one.difference)
         smooth = [one for one in values if one.slack <= SMOOTH]

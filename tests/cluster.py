@@ -26,8 +26,16 @@ import linkwright as lw
 VARY = {"pitman.length": "1.15..1.35 m", "toggle.length": "1.05..1.25 m", "crank.length": "0.08..0.12 m"}
 NUMBERS = ["driver.effort rms", "jaw.angle range", "reaction O5 on jaw max"]
 #: A front whose designs go side by side, and teeth, which go one by one and by the cluster where one is named.
-FRONT = ["gallery:jaw_crusher_sixbar", "--vary", *(f"{name}={text}" for name, text in VARY.items()), "--minimize",
-         "peak_input_torque", "flywheel", "--evaluations", "120000"]  # fmt: skip
+FRONT = [
+    "gallery:jaw_crusher_sixbar",
+    "--vary",
+    *(f"{name}={text}" for name, text in VARY.items()),
+    "--minimize",
+    "peak_input_torque",
+    "flywheel",
+    "--evaluations",
+    "120000",
+]
 TEETH = """\
 format: 1
 name: Pair
@@ -50,17 +58,25 @@ optimize:
 #: A curve, the search for which a clock ends, and the error of a linkage that this time is enough for.
 CURVE = ["synthesize", "free_curve", "points=[[9, 0], [9, 17], [0, 6], [13, 6]]", "unit=mm", "seconds=12"]
 ENOUGH = 0.01
-POINTS = (
-    "points=[[20, 10], [17.7, 15.1], [11.7, 17.9], [5, 16.9], [0.6, 12.7], [1, 6], [6, 2], [14, 3], [18, 6]]"
-)
+POINTS = "points=[[20, 10], [17.7, 15.1], [11.7, 17.9], [5, 16.9], [0.6, 12.7], [1, 6], [6, 2], [14, 3], [18, 6]]"
 #: Work whose finished parts are kept.
 LONG = {
-    "study": ["study", "gallery:jaw_crusher_sixbar", "--vary", *(f"{name}={text}" for name, text in VARY.items()),
-              "--sampling", "sobol", "--samples", "30000", "--output", "designs.csv"],
+    "study": [
+        "study",
+        "gallery:jaw_crusher_sixbar",
+        "--vary",
+        *(f"{name}={text}" for name, text in VARY.items()),
+        "--sampling",
+        "sobol",
+        "--samples",
+        "30000",
+        "--output",
+        "designs.csv",
+    ],
     "tolerance run": ["tolerance", "gallery:pressed_pins", "--output", "curves.csv"],
     "path": ["synthesize", "path", POINTS, "unit=mm", "turning=false"],
     "nine points": ["synthesize", "exact_path", POINTS, "unit=mm"],
-}  # fmt: skip
+}
 OPTIONS = {"threads_per_worker": 1, "dashboard_address": None, "processes": True}
 
 
@@ -73,8 +89,9 @@ def swept(folder: Path, samples: int, client: object = None, part: int = 4096) -
     """Seconds of a sweep."""
     begin = time.perf_counter()
     crusher = lw.load("gallery:jaw_crusher_sixbar")
-    lw.sweep_parts(crusher, VARY, folder, outputs=NUMBERS, sampling="sobol", samples=samples, part=part,
-                   client=client, threads=1)  # fmt: skip
+    lw.sweep_parts(
+        crusher, VARY, folder, outputs=NUMBERS, sampling="sobol", samples=samples, part=part, client=client, threads=1
+    )
     return time.perf_counter() - begin
 
 
@@ -82,10 +99,7 @@ def speed(base: Path, samples: int) -> None:
     """Two workers against one, which share the cores with the scheduler: four times the designs in larger parts."""
     seconds, samples, part = [], 4 * samples, 16384
     for workers in (1, 2):
-        with (
-            distributed.LocalCluster(n_workers=workers, **OPTIONS) as cluster,
-            distributed.Client(cluster) as client,
-        ):
+        with distributed.LocalCluster(n_workers=workers, **OPTIONS) as cluster, distributed.Client(cluster) as client:
             swept(base / f"warm {workers}", part * 2 * workers, client, part)
             seconds.append(swept(base / f"{workers} workers", samples, client, part))
     one, two = seconds
@@ -95,10 +109,7 @@ def speed(base: Path, samples: int) -> None:
 def worker_dies(base: Path, samples: int, wanted: dict[str, bytes], rounds: int) -> None:
     """A worker is killed at a random moment."""
     for number in range(rounds):
-        with (
-            distributed.LocalCluster(n_workers=2, **OPTIONS) as cluster,
-            distributed.Client(cluster) as client,
-        ):
+        with distributed.LocalCluster(n_workers=2, **OPTIONS) as cluster, distributed.Client(cluster) as client:
             wait = random.uniform(0.1, 2.0)
 
             def kill(wait: float = wait, cluster: distributed.LocalCluster = cluster) -> None:
@@ -121,8 +132,18 @@ def run_dies(base: Path, samples: int, wanted: dict[str, bytes], rounds: int) ->
         folder, kills = base / f"run {number}", 0
         words = [sys.executable, "-m", "linkwright", "sweep", "gallery:jaw_crusher_sixbar", "--vary"]
         words += [f"{name}={text}" for name, text in VARY.items()]
-        words += ["--numbers", *NUMBERS, "--folder", str(folder), "--sampling", "sobol", "--samples", str(samples),
-                  "--part", "4096"]  # fmt: skip
+        words += [
+            "--numbers",
+            *NUMBERS,
+            "--folder",
+            str(folder),
+            "--sampling",
+            "sobol",
+            "--samples",
+            str(samples),
+            "--part",
+            "4096",
+        ]
         while True:
             run = subprocess.Popen(words, stdout=subprocess.DEVNULL)
             try:
@@ -211,10 +232,7 @@ def curve_dies(base: Path, rounds: int) -> None:
             again, _ = stopped(CURVE, folder, 0, 12.0)  # the time is over: what is kept is shown
             best = json.loads(found)["candidates"][0]["error"]
             told = "equal to the bit" if again == found else "DIFFERENT"
-            print(
-                f"free curve on {where} killed {kills} times: error {best:.4f}, shown again {told}",
-                flush=True,
-            )
+            print(f"free curve on {where} killed {kills} times: error {best:.4f}, shown again {told}", flush=True)
             assert again == found and best < ENOUGH
 
 

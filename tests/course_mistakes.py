@@ -54,8 +54,10 @@ def main(count: int = 1000) -> int:
     false = sum(n for (slip, found), n in results.items() if not slip and found)
     for (slip, found), n in sorted(results.items()):
         print(f"{n:5}  {slip or 'right':24} -> {found or 'nothing named'}")
-    print(f"{named} of {wrong} mistakes named rightly ({100 * named / wrong:.1f} %); {false} named on "
-          f"{count - wrong} right sheets")  # fmt: skip
+    print(
+        f"{named} of {wrong} mistakes named rightly ({100 * named / wrong:.1f} %); {false} named on "
+        f"{count - wrong} right sheets"
+    )
     return int(named < 0.95 * wrong or false > 0)
 
 

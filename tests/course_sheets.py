@@ -133,11 +133,16 @@ def four_bar(crank: float, coupler: float, rocker: float, pen: Pen) -> dict[str,
     apx, apy = fx - k2x, fy - k2y
     effort = ax * apy - ay * apx
     return {
-        "coupler.angle": pen.answered(p2), "rocker.angle": pen.answered(p3), "coupler.angular_velocity": w2,
-        "rocker.angular_velocity": w3, "coupler.angular_acceleration": e2, "rocker.angular_acceleration": e3,
-        "B on coupler.magnitude": math.hypot(fx, fy), "O4 on rocker.magnitude": math.hypot(o4x, o4y),
+        "coupler.angle": pen.answered(p2),
+        "rocker.angle": pen.answered(p3),
+        "coupler.angular_velocity": w2,
+        "rocker.angular_velocity": w3,
+        "coupler.angular_acceleration": e2,
+        "rocker.angular_acceleration": e3,
+        "B on coupler.magnitude": math.hypot(fx, fy),
+        "O4 on rocker.magnitude": math.hypot(o4x, o4y),
         "driver.effort": effort,
-    }  # fmt: skip
+    }
 
 
 def lever(crank: float, mass: float, pen: Pen) -> dict[str, float]:
@@ -162,25 +167,46 @@ def lever(crank: float, mass: float, pen: Pen) -> dict[str, float]:
     fx, fy = -push * ny, push * nx
     o3 = math.hypot(fx + kx, fy + ky)
     return {
-        "lever.angle": pen.answered(phi), "slot.displacement": s, "lever.angular_velocity": omega,
-        "slot.velocity": along, "lever.angular_acceleration": alpha, "slot.acceleration": second,
-        "O3 on lever.magnitude": o3, "driver.effort": ax * fy - ay * fx,
-    }  # fmt: skip
+        "lever.angle": pen.answered(phi),
+        "slot.displacement": s,
+        "lever.angular_velocity": omega,
+        "slot.velocity": along,
+        "lever.angular_acceleration": alpha,
+        "slot.acceleration": second,
+        "O3 on lever.magnitude": o3,
+        "driver.effort": ax * fy - ay * fx,
+    }
 
 
 #: Mistakes with the places where they can be made, by task.
 SLIPS = {
     "four_bar": (
-        ("degrees_for_radians", "input"), ("degrees_for_radians", "answer"), ("wrong_assembly_mode", ""),
-        ("missing_parenthesis", "B above"), ("missing_parenthesis", "B below"), ("missing_parenthesis", "w2 above"),
-        ("missing_parenthesis", "w3 above"), ("missing_parenthesis", "e2 above"), ("missing_parenthesis", "e3 above"),
-        ("arctangent_quadrant", ""), ("inertia_couple_sign", ""), ("inertia_couple_sign", "coupler"),
-        ("inertia_couple_sign", "rocker"), ("mass_centre_wrong_end", ""), ("mass_centre_wrong_end", "coupler"),
-        ("mass_centre_wrong_end", "rocker"), ("rpm_for_radians", ""),
+        ("degrees_for_radians", "input"),
+        ("degrees_for_radians", "answer"),
+        ("wrong_assembly_mode", ""),
+        ("missing_parenthesis", "B above"),
+        ("missing_parenthesis", "B below"),
+        ("missing_parenthesis", "w2 above"),
+        ("missing_parenthesis", "w3 above"),
+        ("missing_parenthesis", "e2 above"),
+        ("missing_parenthesis", "e3 above"),
+        ("arctangent_quadrant", ""),
+        ("inertia_couple_sign", ""),
+        ("inertia_couple_sign", "coupler"),
+        ("inertia_couple_sign", "rocker"),
+        ("mass_centre_wrong_end", ""),
+        ("mass_centre_wrong_end", "coupler"),
+        ("mass_centre_wrong_end", "rocker"),
+        ("rpm_for_radians", ""),
     ),
     "lever": (
-        ("degrees_for_radians", "input"), ("degrees_for_radians", "answer"), ("wrong_assembly_mode", ""),
-        ("arctangent_quadrant", ""), ("inertia_couple_sign", ""), ("missing_coriolis", ""),
-        ("mass_centre_wrong_end", ""), ("rpm_for_radians", ""),
+        ("degrees_for_radians", "input"),
+        ("degrees_for_radians", "answer"),
+        ("wrong_assembly_mode", ""),
+        ("arctangent_quadrant", ""),
+        ("inertia_couple_sign", ""),
+        ("missing_coriolis", ""),
+        ("mass_centre_wrong_end", ""),
+        ("rpm_for_radians", ""),
     ),
-}  # fmt: skip
+}

@@ -6,18 +6,7 @@ import random
 import re
 from collections.abc import Iterator
 
-SIGNS = [
-    *":{}[],-#&*!|>'\"%@`\t\n ~?=<\\/^·²°",
-    "\x07",
-    "\x85",
-    "\u2028",
-    "\ufeff",
-    "é",
-    "长",
-    "😀",
-    "\r\n",
-    "---\n",
-]
+SIGNS = [*":{}[],-#&*!|>'\"%@`\t\n ~?=<\\/^·²°", "\x07", "\x85", "\u2028", "\ufeff", "é", "长", "😀", "\r\n", "---\n"]
 WORDS = [
     "1e999",
     "-1",
@@ -142,11 +131,7 @@ def indented(text: str) -> Iterator[tuple[str, str]]:
     """Each line once further to the right, to the left, with a tab, and left out."""
     lines = text.split("\n")
     for number, line in enumerate(lines):
-        forms = {
-            "right": f"  {line}",
-            "left": line[2:] if line.startswith("  ") else line,
-            "tab": f"\t{line}",
-        }
+        forms = {"right": f"  {line}", "left": line[2:] if line.startswith("  ") else line, "tab": f"\t{line}"}
         for name, form in forms.items():
             if form != line:
                 yield f"{number} {name}", "\n".join([*lines[:number], form, *lines[number + 1 :]])
@@ -157,7 +142,4 @@ def wide(text: str) -> Iterator[tuple[str, str]]:
     """Signs of a Chinese keyboard in place of those of YAML, each once."""
     signs = dict(zip(":,[]{}\"'", "：，［］｛｝“‘", strict=True))
     for place in re.finditer(r"[:,\[\]{}\"']", text):
-        yield (
-            f"{place.start()} {signs[place[0]]}",
-            text[: place.start()] + signs[place[0]] + text[place.end() :],
-        )
+        yield (f"{place.start()} {signs[place[0]]}", text[: place.start()] + signs[place[0]] + text[place.end() :])

@@ -109,9 +109,7 @@ def _some(names: list[str], most: int, rng: np.random.Generator) -> list[str]:
     return [names[k] for k in rng.permutation(len(names))[:most]]
 
 
-def derivatives(
-    name: str, mechanism: lw.Mechanism, number: int, refused: Counter[str]
-) -> Iterator[Derivative]:
+def derivatives(name: str, mechanism: lw.Mechanism, number: int, refused: Counter[str]) -> Iterator[Derivative]:
     """All judged ones of a machine; what is refused, breaks off or has no derivative is counted."""
     rng = np.random.default_rng([number, 17])
     numbers, dimensions = chosen(mechanism, rng)
@@ -159,18 +157,13 @@ def _judged(
     size = max(float(np.abs(gradient * scales).max()), SMALL * abs(value), NOTHING)
     singles = [goal(each) for each in beside]
     apart = [abs(v - w) / max(abs(v), NOTHING) for v, (w, _) in zip(values, singles, strict=True)]
-    pairs = list(zip(gradients, singles, strict=True))[
-        1:
-    ]  # at the machine itself two extremes may be as large
+    pairs = list(zip(gradients, singles, strict=True))[1:]  # at the machine itself two extremes may be as large
     apart += [np.abs((g - h) * scales).max() / size for g, (_, h) in pairs]
     worst = float(np.nanmax(apart))
     yield Derivative(name, number, "many designs", worst, 0.0, f"one design and many differ by {worst:.1e}")
     for place, dimension in enumerate(goal.names):
         slope, left_open = _by_steps(goal, start, place, scales[place])
-        error, left_open = (
-            abs(gradient[place] - slope) * scales[place] / size,
-            left_open * scales[place] / size,
-        )
+        error, left_open = (abs(gradient[place] - slope) * scales[place] / size, left_open * scales[place] / size)
         if not left_open < UNSURE:
             refused["no derivative by steps"] += 1
             continue
@@ -224,9 +217,7 @@ def run(chosen_machines: Iterator[tuple[str, lw.Mechanism, int]], count: int) ->
             continue
         for each in several:
             if each.wrong:
-                print(
-                    f"{name}: {each.number} by {each.dimension}: {each.said} ({each.error:.1e})", flush=True
-                )
+                print(f"{name}: {each.number} by {each.dimension}: {each.said} ({each.error:.1e})", flush=True)
         found += several
         judged += bool(several)
         if judged % 10 == 0:

@@ -102,29 +102,39 @@ INPUTS: dict[str, tuple[Callable[[], str], bool]] = {
     "deep blocks": (lambda: "".join(" " * i + "a:\n" for i in range(1300)), False),
     "question marks": (lambda: "? " * 400_000, False),
     "exploding aliases": (
-        lambda: "a: &a [x,x,x,x,x,x,x,x,x,x]\n"
-        + "".join(f"{c}: &{c} [{','.join(['*' + chr(ord(c) - 1)] * 10)}]\n" for c in "bcdefghij"),
+        lambda: (
+            "a: &a [x,x,x,x,x,x,x,x,x,x]\n"
+            + "".join(f"{c}: &{c} [{','.join(['*' + chr(ord(c) - 1)] * 10)}]\n" for c in "bcdefghij")
+        ),
         False,
     ),
     "unknown keys": (lambda: with_length("1 m", "".join(f"key{i}: 1\n" for i in range(14_000))), False),
     "a long key": (lambda: with_length("1 m", '? "' + "k" * 900_000 + '"\n: 1\n'), False),
     "a long word": (lambda: with_length("1 m").replace("turn: crank", "turn: " + "c" * 900_000), False),
     "many links": (
-        lambda: "format: 1\nframe: {points: {O1: [0 m, 0 m]}}\nlinks:\n"
-        + "".join(f"  l{i}: {{points: [O1, A], length: 1 m}}\n" for i in range(3500)),
+        lambda: (
+            "format: 1\nframe: {points: {O1: [0 m, 0 m]}}\nlinks:\n"
+            + "".join(f"  l{i}: {{points: [O1, A], length: 1 m}}\n" for i in range(3500))
+        ),
         False,
     ),
     "many points": (
-        lambda: "format: 1\nframe: {points: {O1: [0 m, 0 m]}}\nlinks:\n  a: {points: [O1, A], length: 1 m, also: {"
-        + ", ".join(f"P{i}: [1 m, {i + 1} mm]" for i in range(7000))
-        + "}, mass: 1 kg, inertia: 1 kg*m^2}\ndriver: {turn: a, about: O1, speed: 1 rpm}\n",
+        lambda: (
+            "format: 1\nframe: {points: {O1: [0 m, 0 m]}}\nlinks:\n  a: {points: [O1, A], length: 1 m, also: {"
+            + ", ".join(f"P{i}: [1 m, {i + 1} mm]" for i in range(7000))
+            + "}, mass: 1 kg, inertia: 1 kg*m^2}\ndriver: {turn: a, about: O1, speed: 1 rpm}\n"
+        ),
         True,
     ),
     "many loads": (
-        lambda: with_length("1 m", after="loads:\n" + "".join(
-            f'  l{i}: {{kind: force, on: crank, at: A, direction: 0 deg, magnitude: "1 N*sin(crank)"}}\n'
-            for i in range(1500)
-        )),
+        lambda: with_length(
+            "1 m",
+            after="loads:\n"
+            + "".join(
+                f'  l{i}: {{kind: force, on: crank, at: A, direction: 0 deg, magnitude: "1 N*sin(crank)"}}\n'
+                for i in range(1500)
+            ),
+        ),
         True,
     ),
     "a long table": (
@@ -135,7 +145,7 @@ INPUTS: dict[str, tuple[Callable[[], str], bool]] = {
         ),
         True,
     ),
-}  # fmt: skip
+}
 
 
 def _times() -> None:

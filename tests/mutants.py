@@ -32,9 +32,19 @@ from tests.mutation.probes import SOURCE
 from tests.mutation.trial import killed, preload
 
 PACKAGES = (
-    "kinematics", "groups", "topology", "kinetostatics", "applied_loads", "drivers", "joints", "analysis", "machine",
-    "engine", "study", "units.py",
-)  # fmt: skip
+    "kinematics",
+    "groups",
+    "topology",
+    "kinetostatics",
+    "applied_loads",
+    "drivers",
+    "joints",
+    "analysis",
+    "machine",
+    "engine",
+    "study",
+    "units.py",
+)
 EQUIVALENT = Path(__file__).parent / "equivalent_mutants.txt"
 WANTED = 0.9
 
@@ -126,8 +136,7 @@ def show(trial: Trial) -> None:
 
 def summary(trials: list[Trial]) -> tuple[str, float]:
     counts = {
-        state: sum(t.state == state for t in trials)
-        for state in ("killed", "survived", "not run", "equivalent")
+        state: sum(t.state == state for t in trials) for state in ("killed", "survived", "not run", "equivalent")
     }
     others = len(trials) - counts["equivalent"]
     share = counts["killed"] / others if others else 1.0
@@ -170,9 +179,7 @@ def _check_unchanged(cover: Covering, chosen: list[Mutant]) -> None:
     for mutant in chosen[:5]:
         tests = cover.of(mutant)
         source = (SOURCE / mutant.path).read_text("utf-8")
-        failed, said = (
-            killed(mutant.path, source, cover.by_promise(tests, 5.0), 300) if tests else (False, "")
-        )
+        failed, said = killed(mutant.path, source, cover.by_promise(tests, 5.0), 300) if tests else (False, "")
         if failed:
             raise SystemExit(f"{said} fails on the unchanged package; mutants would say nothing")
 
@@ -206,9 +213,7 @@ def main() -> int:
     parser.add_argument("--workers", type=int, default=1, help="processes (default 1)")
     parser.add_argument("--only", nargs="+", help=f"packages or modules (default {' '.join(PACKAGES)})")
     parser.add_argument("--budget", type=float, default=30.0, help="seconds of tests per mutant (default 30)")
-    parser.add_argument(
-        "--again", type=float, default=0.0, help="seconds of more tests of the line (default 0)"
-    )
+    parser.add_argument("--again", type=float, default=0.0, help="seconds of more tests of the line (default 0)")
     parser.add_argument("--folder", type=Path, help="where the record is kept (default build/mutants)")
     return run(parser.parse_args())
 

@@ -61,11 +61,7 @@ def kinetic(m: Motion) -> Floats:
         if not link.mass:
             continue
         v = m.point(f"{name}.centre").velocity
-        total = (
-            total
-            + link.mass * (v * v).sum(axis=1)
-            + (link.inertia or 0.0) * m.link(name).angular_velocity ** 2
-        )
+        total = total + link.mass * (v * v).sum(axis=1) + (link.inertia or 0.0) * m.link(name).angular_velocity ** 2
     return total
 
 
@@ -86,9 +82,7 @@ def acute(a: Floats, b: Floats) -> Floats:
 
 def heat(m: Motion, f: Forces) -> Floats:
     return np.asarray(
-        size(f.reaction("A", on="die"))
-        * 0.025
-        * (m.link("die").angular_velocity - m.link("crank").angular_velocity)
+        size(f.reaction("A", on="die")) * 0.025 * (m.link("die").angular_velocity - m.link("crank").angular_velocity)
     )
 
 
@@ -128,11 +122,7 @@ OF_THE_SHAPER: list[tuple[str, str, Reading]] = [
     ("load cutting", "force", lambda m, f: np.full(m.steps, 200.0)),
     ("heat A on die", "power", heat),
     ("heat A on crank", "power", lambda m, f: -heat(m, f)),
-    (
-        "heat Q",
-        "power",
-        lambda m, f: size(f.reaction("Q", on="lever")) * 0.03 * m.link("lever").angular_velocity,
-    ),
+    ("heat Q", "power", lambda m, f: size(f.reaction("Q", on="lever")) * 0.03 * m.link("lever").angular_velocity),
     ("equivalent_inertia", "inertia", lambda m, f: kinetic(m) / 9.0),
     ("velocity_ratio lever", "dimensionless", lambda m, f: m.link("lever").angular_velocity / 3.0),
     ("velocity_ratio bed", "length_per_angle", lambda m, f: m.joint("bed").velocity / 3.0),
@@ -149,6 +139,11 @@ OF_THE_PUSHED: list[tuple[str, str, Reading]] = [
     ("velocity_ratio rod", "angle_per_length", lambda m, f: m.link("rod").angular_velocity / -0.2),
     ("rod.centre.x", "length", lambda m, f: m.point("rod.centre").position[:, 0]),
     ("equivalent_inertia", "inertia", lambda m, f: kinetic_with_own_centre(m) / 0.2**2),
-    ("transmission_angle A", "angle", lambda m, f: acute(
-        m.point("A").position - m.point("O").position, m.point("B").position - m.point("A").position)),
-]  # fmt: skip
+    (
+        "transmission_angle A",
+        "angle",
+        lambda m, f: acute(
+            m.point("A").position - m.point("O").position, m.point("B").position - m.point("A").position
+        ),
+    ),
+]

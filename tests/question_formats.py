@@ -27,20 +27,32 @@ TEMPLATES = {
     for name in ("match_correct", "map_response", "map_response_point")
 }
 PARTS_OF_ITEM = (
-    "responseDeclaration", "outcomeDeclaration", "templateDeclaration", "templateProcessing", "stylesheet",
-    "itemBody", "responseProcessing", "modalFeedback",
-)  # fmt: skip
+    "responseDeclaration",
+    "outcomeDeclaration",
+    "templateDeclaration",
+    "templateProcessing",
+    "stylesheet",
+    "itemBody",
+    "responseProcessing",
+    "modalFeedback",
+)
 BLOCKS = {"p", "div", "h1", "h2", "h3", "ul", "ol", "dl", "pre", "table", "blockquote", "hr", "address"}
 CARDINALITIES = {"single", "multiple", "ordered", "record"}
 BASE_TYPES = {
-    "identifier", "boolean", "integer", "float", "string", "point", "pair", "directedPair", "duration", "file", "uri",
-}  # fmt: skip
-NUMERIC = {"integer", "float"}
-INSIDE = {
-    "table": {"tbody", "thead", "tfoot", "caption", "col", "colgroup"},
-    "tbody": {"tr"},
-    "tr": {"td", "th"},
+    "identifier",
+    "boolean",
+    "integer",
+    "float",
+    "string",
+    "point",
+    "pair",
+    "directedPair",
+    "duration",
+    "file",
+    "uri",
 }
+NUMERIC = {"integer", "float"}
+INSIDE = {"table": {"tbody", "thead", "tfoot", "caption", "col", "colgroup"}, "tbody": {"tr"}, "tr": {"td", "th"}}
 
 
 # QTI 2.1 ------------------------------------------------------------------------------------------
@@ -72,9 +84,7 @@ def _manifest_faults(root: Element, names: set[str]) -> list[str]:
         faults.append("manifest: root or identifier")
     if [_name(each, PACKAGE) for each in root] != ["metadata", "organizations", "resources"]:
         faults.append("manifest: order of parts")
-    told = [
-        root.findtext(f"{{{PACKAGE}}}metadata/{{{PACKAGE}}}{part}") for part in ("schema", "schemaversion")
-    ]
+    told = [root.findtext(f"{{{PACKAGE}}}metadata/{{{PACKAGE}}}{part}") for part in ("schema", "schemaversion")]
     if told != ["QTIv2.1 Package", "1.0.0"]:
         faults.append(f"manifest: schema {told}")
     resources = list(root.iter(f"{{{PACKAGE}}}resource"))
@@ -111,8 +121,11 @@ class _Item:
         if each.get("cardinality") not in CARDINALITIES or base not in BASE_TYPES:
             self.faults.append(f"{name}: cardinality or baseType")
         self.of[kind][name] = f"{each.get('cardinality')} {base}"
-        allowed = {"correctResponse", "mapping", "areaMapping"} if kind == "responseDeclaration" else {
-            "defaultValue", "matchTable", "interpolationTable"}  # fmt: skip
+        allowed = (
+            {"correctResponse", "mapping", "areaMapping"}
+            if kind == "responseDeclaration"
+            else {"defaultValue", "matchTable", "interpolationTable"}
+        )
         for part in each:
             if _name(part, ITEM) not in allowed:
                 self.faults.append(f"{name}: {_name(part, ITEM)} in {kind}")
@@ -190,25 +203,19 @@ def item_faults(root: Element) -> list[str]:
     if root.tag != f"{{{ITEM}}}assessmentItem":
         return [f"root {root.tag}"]
     item = _Item(root)
-    rules = {
-        "identifier": r".+",
-        "title": r"(?s:.+)",
-        "adaptive": "true|false",
-        "timeDependent": "true|false",
-    }
+    rules = {"identifier": r".+", "title": r"(?s:.+)", "adaptive": "true|false", "timeDependent": "true|false"}
     faults = [f"attribute {key}" for key, rule in rules.items() if not re.fullmatch(rule, root.get(key, ""))]
-    order = [
-        PARTS_OF_ITEM.index(_name(part, ITEM)) if _name(part, ITEM) in PARTS_OF_ITEM else -1 for part in root
-    ]
+    order = [PARTS_OF_ITEM.index(_name(part, ITEM)) if _name(part, ITEM) in PARTS_OF_ITEM else -1 for part in root]
     if order != sorted(order) or -1 in order or order.count(5) != 1 or order.count(6) > 1:
         faults.append("order of the item's parts")
     asked = [each.get("responseIdentifier", "") for each in root.iter(f"{{{ITEM}}}textEntryInteraction")]
     if sorted(asked) != sorted(item.of["responseDeclaration"]):
         faults.append(f"asked {asked}, declared {sorted(item.of['responseDeclaration'])}")
     faults += [
-        f"text entry into a {kind}" for kind in item.of["responseDeclaration"].values()
+        f"text entry into a {kind}"
+        for kind in item.of["responseDeclaration"].values()
         if kind not in ("single float", "single integer", "single string")
-    ]  # fmt: skip
+    ]
     for body in root.iterfind(f"{{{ITEM}}}itemBody"):
         faults += _body_faults(body)
     for processing in root.iterfind(f"{{{ITEM}}}responseProcessing"):
@@ -291,15 +298,51 @@ def _embedded_faults(each: Element) -> Iterator[str]:
 
 # PrairieLearn -------------------------------------------------------------------------------------
 INFO = {
-    "comment", "uuid", "type", "title", "topic", "tags", "clientFiles", "clientTemplates", "template",
-    "gradingMethod", "singleVariant", "showCorrectAnswer", "partialCredit", "options", "externalGradingOptions",
-    "dependencies", "workspaceOptions", "sharingSets", "sharePublicly", "shareSourcePublicly",
-}  # fmt: skip
+    "comment",
+    "uuid",
+    "type",
+    "title",
+    "topic",
+    "tags",
+    "clientFiles",
+    "clientTemplates",
+    "template",
+    "gradingMethod",
+    "singleVariant",
+    "showCorrectAnswer",
+    "partialCredit",
+    "options",
+    "externalGradingOptions",
+    "dependencies",
+    "workspaceOptions",
+    "sharingSets",
+    "sharePublicly",
+    "shareSourcePublicly",
+}
 INPUT = {
-    "answers-name", "weight", "correct-answer", "label", "suffix", "display", "comparison", "rtol", "atol", "digits",
-    "allow-complex", "allow-blank", "blank-value", "show-help-text", "show-placeholder", "size",
-    "show-correct-answer", "allow-fractions", "custom-format", "placeholder", "aria-label", "initial-value",
-}  # fmt: skip
+    "answers-name",
+    "weight",
+    "correct-answer",
+    "label",
+    "suffix",
+    "display",
+    "comparison",
+    "rtol",
+    "atol",
+    "digits",
+    "allow-complex",
+    "allow-blank",
+    "blank-value",
+    "show-help-text",
+    "show-placeholder",
+    "size",
+    "show-correct-answer",
+    "allow-fractions",
+    "custom-format",
+    "placeholder",
+    "aria-label",
+    "initial-value",
+}
 ELEMENTS = {"pl-question-panel": set(), "pl-figure": {"file-name"}, "pl-number-input": {"answers-name"}}
 
 
@@ -343,9 +386,7 @@ def question_faults(files: Mapping[str, bytes], answers: set[str], params: set[s
             faults += [f"attribute {key}" for key in set(given) - INPUT]
             if given.get("comparison", "relabs") not in ("relabs", "sigfig", "decdig"):
                 faults.append(f"comparison {given['comparison']}")
-            faults += [
-                f"{key} {given[key]}" for key in ("rtol", "atol") if not NUMBER.fullmatch(given.get(key, "0"))
-            ]
+            faults += [f"{key} {given[key]}" for key in ("rtol", "atol") if not NUMBER.fullmatch(given.get(key, "0"))]
     names = [given.get("answers-name", "") for tag, given in page.used if tag == "pl-number-input"]
     if len(set(names)) < len(names) or set(names) != answers or not all(map(str.isidentifier, names)):
         faults.append(f"inputs {names}, answers {sorted(answers)}")

@@ -78,9 +78,7 @@ def machines(files: list[str], first: int, count: int) -> Iterator[tuple[str, An
 
 def main() -> int:
     """Reads the options, and judges so many machines."""
-    parser = argparse.ArgumentParser(
-        prog="python -m tests.random_branches", description=__doc__.split("\n")[0]
-    )
+    parser = argparse.ArgumentParser(prog="python -m tests.random_branches", description=__doc__.split("\n")[0])
     parser.add_argument("files", nargs="*", help="model files instead of random machines")
     parser.add_argument("--count", type=int, default=40, help="how many machines (default 40)")
     parser.add_argument("--first", type=int, default=300_000, help="the first seed (default 300000)")

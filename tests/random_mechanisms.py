@@ -87,13 +87,7 @@ def judge_seed(seed: int, limit: int = 60) -> Result:
         except Warning as warning:
             verdict = Verdict("crash", [f"warning: {warning}"])
     return Result(
-        seed,
-        case.steps,
-        verdict.kind,
-        verdict.lines,
-        verdict.positions,
-        time.perf_counter() - began,
-        verdict.notes,
+        seed, case.steps, verdict.kind, verdict.lines, verdict.positions, time.perf_counter() - began, verdict.notes
     )
 
 
@@ -210,18 +204,14 @@ def judge_files(paths: list[Path], steps: int | None, limit: int) -> int:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(
-        prog="python -m tests.random_mechanisms", description=__doc__.split("\n")[0]
-    )
+    parser = argparse.ArgumentParser(prog="python -m tests.random_mechanisms", description=__doc__.split("\n")[0])
     parser.add_argument("files", nargs="*", type=Path, metavar="FILE", help="model files to judge instead")
     parser.add_argument("--count", type=int, default=300, help="how many mechanisms (default 300)")
     parser.add_argument("--seed", type=int, default=1, help="which sequence of mechanisms (default 1)")
     parser.add_argument("--workers", type=int, default=1, help="processes (default 1)")
     parser.add_argument("--steps", type=int, help="steps of the cycle, for FILE")
     parser.add_argument("--limit", type=int, default=60, help="seconds for one mechanism (default 60)")
-    parser.add_argument(
-        "--folder", type=Path, help="where results are kept (default build/random_mechanisms/SEED)"
-    )
+    parser.add_argument("--folder", type=Path, help="where results are kept (default build/random_mechanisms/SEED)")
     given = parser.parse_args()
     if given.files:
         return judge_files(given.files, given.steps, given.limit)

@@ -43,7 +43,5 @@ def found(kind: str, *inputs: object) -> tuple[list[Peer], list[str]]:
 def error(peer: Peer, work: Work, truth: Mapping[str, Floats]) -> float:
     """Largest difference from ``truth``, as a share of each output's largest value; NaN where nothing is given."""
     results = peer.results()
-    gaps = [
-        float(np.max(abs(array - truth[name])) / abs(truth[name]).max()) for name, array in results.items()
-    ]
+    gaps = [float(np.max(abs(array - truth[name])) / abs(truth[name]).max()) for name, array in results.items()]
     return max(gaps, default=float("nan"))

@@ -40,9 +40,7 @@ class _Model:
         self.ground = self.system.AddObject(ObjectGround())
         self._assemble()
 
-    def _body(
-        self, p: Floats, q: Floats, vp: Floats, vq: Floats, rate: float, mass: float, inertia: float
-    ) -> Any:
+    def _body(self, p: Floats, q: Floats, vp: Floats, vq: Floats, rate: float, mass: float, inertia: float) -> Any:
         system, centre, speed = self.system, 0.5 * (p + q), 0.5 * (vp + vq)
         angle = math.atan2(q[1] - p[1], q[0] - p[0])
         node = system.AddNode(
@@ -65,9 +63,7 @@ class _Model:
         node = system.AddNode(
             NodeRigidBody2D(referenceCoordinates=[0.0, 0.0, 0.0], initialVelocities=[0.0, 0.0, row[1]])
         )
-        crank = system.AddObject(
-            ObjectRigidBody2D(physicsMass=1.0, physicsInertia=_CRANK_INERTIA, nodeNumber=node)
-        )
+        crank = system.AddObject(ObjectRigidBody2D(physicsMass=1.0, physicsInertia=_CRANK_INERTIA, nodeNumber=node))
         ends = ((a, b, va, vb), (o3, b, rest, vb), (b, c, vb, vc), (o5, c, rest, vc))
         (a2, b2), (a3, b3), (a4, b4), (a5, b5) = (
             self._body(*each, f[18 + k], row[12 + k], row[16 + k]) for k, each in enumerate(ends)

@@ -66,19 +66,13 @@ class _Crusher:
     def gap(self, x: Floats, angle: float) -> Floats:
         a, b, c, d = self.lengths
         pin = self.crank * _unit(angle) + a * _unit(x[0])
-        return np.concatenate(
-            [pin - self.o3 - b * _unit(x[1]), pin + c * _unit(x[2]) - self.o5 - d * _unit(x[3])]
-        )
+        return np.concatenate([pin - self.o3 - b * _unit(x[1]), pin + c * _unit(x[2]) - self.o5 - d * _unit(x[3])])
 
     def rates(self, x: Floats, angle: float) -> tuple[Floats, Floats]:
         a, b, c, d = self.lengths
         jacobian = np.zeros((4, 4))
         jacobian[:2, 0] = jacobian[2:, 0] = a * _perp(x[0])
-        jacobian[:2, 1], jacobian[2:, 2], jacobian[2:, 3] = (
-            -b * _perp(x[1]),
-            c * _perp(x[2]),
-            -d * _perp(x[3]),
-        )
+        jacobian[:2, 1], jacobian[2:, 2], jacobian[2:, 3] = (-b * _perp(x[1]), c * _perp(x[2]), -d * _perp(x[3]))
         w = np.linalg.solve(jacobian, np.tile(-self.speed * self.crank * _perp(angle), 2))
         pull = self.speed**2 * self.crank * _unit(angle) + w[0] ** 2 * a * _unit(x[0])
         first = pull - w[1] ** 2 * b * _unit(x[1])
@@ -95,15 +89,22 @@ class _Crusher:
         pin_c = d * (g[3] * _perp(x[3]) - w[3] ** 2 * _unit(x[3]))
         matrix, right = np.zeros((15, 15)), np.zeros(15)
         centres = [
-            0.5 * (p + q)
-            for p, q in ((pins[0], pins[1]), (pins[1], self.o3), (pins[1], pins[2]), (pins[2], self.o5))
+            0.5 * (p + q) for p, q in ((pins[0], pins[1]), (pins[1], self.o3), (pins[1], pins[2]), (pins[2], self.o5))
         ]
         accelerations = [0.5 * (pin_a + pin_b), 0.5 * pin_b, 0.5 * (pin_b + pin_c), 0.5 * pin_c]
         acting = (
-            (0, 0, 1, pins[0] * 0), (0, 1, -1, pins[0]), (1, 1, 1, pins[0]), (1, 2, 1, pins[1]), (2, 2, -1, pins[1]),
-            (2, 3, -1, pins[1]), (2, 5, 1, self.o3), (3, 3, 1, pins[1]), (3, 4, 1, pins[2]), (4, 4, -1, pins[2]),
+            (0, 0, 1, pins[0] * 0),
+            (0, 1, -1, pins[0]),
+            (1, 1, 1, pins[0]),
+            (1, 2, 1, pins[1]),
+            (2, 2, -1, pins[1]),
+            (2, 3, -1, pins[1]),
+            (2, 5, 1, self.o3),
+            (3, 3, 1, pins[1]),
+            (3, 4, 1, pins[2]),
+            (4, 4, -1, pins[2]),
             (4, 6, 1, self.o5),
-        )  # fmt: skip
+        )
         for link, force, sign, place in acting:
             arm = place - (centres[link - 1] if link else 0.0)
             row, column = 3 * link, 2 * force

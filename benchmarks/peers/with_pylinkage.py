@@ -86,9 +86,7 @@ def fourbar_sweep(work: Work, designs: Floats, count: int) -> list[Peer]:
     """W4: the compiled solver once per design, without the summaries."""
     steps, few = work.positions.count, designs[:count]
     names = ("A", "B", "coupler.P")
-    rows = dict(
-        zip(FOURBAR_OUTPUTS, by_numpy.fourbar(np.ones(1), np.zeros(1), few.T[:, :, None]), strict=True)
-    )
+    rows = dict(zip(FOURBAR_OUTPUTS, by_numpy.fourbar(np.ones(1), np.zeros(1), few.T[:, :, None]), strict=True))
     starts = np.zeros((len(few), 5, 2))
     starts[:, 1, 0] = few[:, 2]
     for place, name in enumerate(names, 2):
@@ -96,9 +94,7 @@ def fourbar_sweep(work: Work, designs: Floats, count: int) -> list[Peer]:
             starts[:, place, column] = np.broadcast_to(rows[f"p:{name}.{axis}"], (len(few), 1))[:, 0]
     solvers = []
     for row, start in zip(few, starts, strict=True):
-        first = {
-            f"p:{n}.{a}": start[k : k + 1, i] for k, n in enumerate(names, 2) for i, a in enumerate("xy")
-        }
+        first = {f"p:{n}.{a}": start[k : k + 1, i] for k, n in enumerate(names, 2) for i, a in enumerate("xy")}
         solvers.append(linkage_to_solver_data(_fourbar_linkage(row, first, steps)))
     crank, speed, still = np.array([2], dtype=np.int32), np.array([10.0]), np.zeros(1)
 
@@ -106,20 +102,7 @@ def fourbar_sweep(work: Work, designs: Floats, count: int) -> list[Peer]:
         for data, start in zip(solvers, starts, strict=True):
             simulate_with_kinematics(
                 *(start.copy(), np.zeros((5, 2)), np.zeros((5, 2)), data.constraints, data.joint_types),
-                *(
-                    data.parent_indices,
-                    data.constraint_offsets,
-                    data.solve_order,
-                    speed,
-                    still,
-                    crank,
-                    steps,
-                    1.0,
-                ),
+                *(data.parent_indices, data.constraint_offsets, data.solve_order, speed, still, crank, steps, 1.0),
             )
 
-    return [
-        Peer(
-            "pylinkage", run, share=len(few) / len(designs), note=f"{len(few)} designs, scaled; no summaries"
-        )
-    ]
+    return [Peer("pylinkage", run, share=len(few) / len(designs), note=f"{len(few)} designs, scaled; no summaries")]

@@ -40,14 +40,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.synthesis", description=__doc__)
     parser.add_argument("--seeds", type=int, default=10, help="seeds of every published path")
     parser.add_argument("--hidden", type=int, default=50, help="hidden four-bars")
-    parser.add_argument(
-        "--others", type=int, default=5, help="hidden four-bars given to the other optimisers"
-    )
+    parser.add_argument("--others", type=int, default=5, help="hidden four-bars given to the other optimisers")
     parser.add_argument("--limit", type=float, default=30.0, help="seconds for each of them")
     parser.add_argument("--nine", type=int, default=0, help="hidden four-bars of nine points, of each kind")
-    parser.add_argument(
-        "--loops", type=int, default=0, help="triangles around which the start set is carried"
-    )
+    parser.add_argument("--loops", type=int, default=0, help="triangles around which the start set is carried")
     options = parser.parse_args(arguments)
     warnings.simplefilter("ignore")
     for case in published() if options.seeds else ():

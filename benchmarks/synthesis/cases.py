@@ -14,13 +14,37 @@ Complexes = NDArray[np.complex128]
 
 FIVE = [3 + 3j, 2.759 + 3.363j, 2.372 + 3.663j, 1.89 + 3.862j, 1.355 + 3.943j]
 EIGHTEEN = [
-    0.5 + 1.1j, 0.4 + 1.1j, 0.3 + 1.1j, 0.2 + 1j, 0.1 + 0.9j, 0.05 + 0.75j, 0.02 + 0.6j, 0.5j, 0.4j, 0.03 + 0.3j,
-    0.1 + 0.25j, 0.15 + 0.2j, 0.2 + 0.3j, 0.3 + 0.4j, 0.4 + 0.5j, 0.5 + 0.7j, 0.6 + 0.9j, 0.6 + 1j,
-]  # fmt: skip
+    0.5 + 1.1j,
+    0.4 + 1.1j,
+    0.3 + 1.1j,
+    0.2 + 1j,
+    0.1 + 0.9j,
+    0.05 + 0.75j,
+    0.02 + 0.6j,
+    0.5j,
+    0.4j,
+    0.03 + 0.3j,
+    0.1 + 0.25j,
+    0.15 + 0.2j,
+    0.2 + 0.3j,
+    0.3 + 0.4j,
+    0.4 + 0.5j,
+    0.5 + 0.7j,
+    0.6 + 0.9j,
+    0.6 + 1j,
+]
 ELLIPSE = [
-    20 + 10j, 17.66 + 15.142j, 11.736 + 17.878j, 5 + 16.928j, 0.60307 + 12.736j, 0.60307 + 7.2638j, 5 + 3.0718j,
-    11.736 + 2.1215j, 17.66 + 4.8577j, 20 + 10j,
-]  # fmt: skip
+    20 + 10j,
+    17.66 + 15.142j,
+    11.736 + 17.878j,
+    5 + 16.928j,
+    0.60307 + 12.736j,
+    0.60307 + 7.2638j,
+    5 + 3.0718j,
+    11.736 + 2.1215j,
+    17.66 + 4.8577j,
+    20 + 10j,
+]
 HALF_CIRCLE = [0j, 1.9098 + 5.8779j, 6.9098 + 9.5106j, 13.09 + 9.5106j, 18.09 + 5.8779j, 20 + 0j]
 LINE = [20 + 1j * y for y in range(20, 50, 5)]
 
@@ -45,10 +69,7 @@ def published() -> list[Case]:
         Case("five timed, frame free", np.array(FIVE), {"angles": thirty, "phase": False}, 2.7108919e-7),
         Case("eighteen timed", np.array(EIGHTEEN), {"angles": np.arange(18) * np.pi / 9}, 0.0090288846),
         Case(
-            "half circle timed, ±50",
-            np.array(HALF_CIRCLE),
-            {"angles": half, "phase": False, "bound": 50.0},
-            1.3893,
+            "half circle timed, ±50", np.array(HALF_CIRCLE), {"angles": half, "phase": False, "bound": 50.0}, 1.3893
         ),
         Case("ellipse untimed, ±80", np.array(ELLIPSE), {"bound": 80.0}, 4.02e-4),
         Case("six on a line, untimed", np.array(LINE), {"bound": 60.0}, 1e-20),
@@ -69,9 +90,7 @@ def hidden(seed: int, count: int = 36) -> Case:
     t = square + b * b - c * c
     turn = reach * (t + 1j * rng.choice([-1, 1]) * np.sqrt(4 * b * b * square - t * t)) / (2 * square * b)
     path = pin + complex(*rng.uniform(-2, 2, 2)) * turn
-    path = path * np.exp(1j * rng.uniform(0, 2 * np.pi)) * rng.uniform(0.5, 2) + complex(
-        *rng.uniform(-3, 3, 2)
-    )
+    path = path * np.exp(1j * rng.uniform(0, 2 * np.pi)) * rng.uniform(0.5, 2) + complex(*rng.uniform(-3, 3, 2))
     return Case(f"hidden {seed}", path, {"angles": theta})
 
 

@@ -61,9 +61,15 @@ def differential_evolution(case: Case, best: Best, seed: int) -> None:
             return error
 
         differential_evolution(
-            cost, list(zip(LOW, HIGH, strict=True)), polish=False, rng=seed + attempt, maxiter=3000,
-            popsize=15, vectorized=True, updating="deferred",
-        )  # fmt: skip
+            cost,
+            list(zip(LOW, HIGH, strict=True)),
+            polish=False,
+            rng=seed + attempt,
+            maxiter=3000,
+            popsize=15,
+            vectorized=True,
+            updating="deferred",
+        )
 
 
 def many_starts(case: Case, best: Best, seed: int) -> None:
@@ -116,9 +122,15 @@ def pylinkage(case: Case, best: Best, seed: int) -> None:
 
     while True:
         particle_swarm_optimization(
-            fitness, linkage, dimensions=10, n_particles=100, iterations=200, bounds=(list(LOW), list(HIGH)),
-            order_relation=max, verbose=False,
-        )  # fmt: skip
+            fitness,
+            linkage,
+            dimensions=10,
+            n_particles=100,
+            iterations=200,
+            bounds=(list(LOW), list(HIGH)),
+            order_relation=max,
+            verbose=False,
+        )
 
 
 class _Model:

@@ -25,10 +25,7 @@ STILL: dict[str, tuple[str, dict[str, Any]]] = {
     "triad": ("triad", {}),
 }
 MOVING: dict[str, tuple[str, dict[str, Any]]] = {
-    "jaw_crusher_moving": (
-        "jaw_crusher_sixbar",
-        {"paths": ("C",), "forces": True, "curves": ("jaw.angle",)},
-    ),
+    "jaw_crusher_moving": ("jaw_crusher_sixbar", {"paths": ("C",), "forces": True, "curves": ("jaw.angle",)}),
     "theo_jansen_leg_moving": ("theo_jansen_leg", {"paths": ("leg.T",), "frames": 36}),
 }
 

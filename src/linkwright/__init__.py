@@ -40,9 +40,11 @@ ATTACHED.update(
     }
 )
 
-SECTIONS.update({
-    "course": "linkwright.course.task:SECTION",
-    "optimize": "linkwright.designs.optimise.problem:SECTION",
-    "report": "linkwright.reports.settings:SECTION",
-    "synthesis": "linkwright.synthesis.section:SECTION",
-})  # fmt: skip
+SECTIONS.update(
+    {
+        "course": "linkwright.course.task:SECTION",
+        "optimize": "linkwright.designs.optimise.problem:SECTION",
+        "report": "linkwright.reports.settings:SECTION",
+        "synthesis": "linkwright.synthesis.section:SECTION",
+    }
+)

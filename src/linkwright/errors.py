@@ -17,11 +17,7 @@ Severity = Literal["error", "warning", "note"]
 NO_FILE = frozenset({"no-file", "not-a-file"})
 
 
-_SEVERITIES = {
-    "error": _("{body}"),
-    "warning": _("warning: {body}"),
-    "note": _("note: {body}"),
-}
+_SEVERITIES = {"error": _("{body}"), "warning": _("warning: {body}"), "note": _("note: {body}")}
 
 
 @dataclass(frozen=True)

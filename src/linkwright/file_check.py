@@ -180,7 +180,7 @@ def _assumed(mechanism: Mechanism, structure: Structure) -> list[Finding]:
             message = _(
                 "group {signature} ({links}) has two assemblies, and neither assembly nor drawing "
                 'says which: "{first}" is taken; write assembly: {{{joint}: {first}}} or {{{joint}: '
-                "{second}}}",
+                "{second}}}"
             ).format(**values, first=words[0], second=words[1])
             found.append(Finding("note", "", "", message, code="assembly"))
     return found
@@ -238,7 +238,7 @@ def _hardly_determined(motion: Motion) -> Iterator[Finding]:
                 _(
                     "group ({links}) is close to a singular position all the time (determinant of its "
                     "closure at most {best}, limit {limit}): its motion is hardly determined, and forces "
-                    "grow very large",
+                    "grow very large"
                 ).format(**values),
                 _("change the lengths of its links or where they are joined"),
             )

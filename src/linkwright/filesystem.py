@@ -174,8 +174,6 @@ def _made(path: Path, mode: int) -> int:
     return os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), mode)
 
 
-def _refused(
-    target: Path, problem: OSError | ValueError, problem_of: Message = _CANNOT_WRITE
-) -> RequestError:
+def _refused(target: Path, problem: OSError | ValueError, problem_of: Message = _CANNOT_WRITE) -> RequestError:
     shown = str(target) if len(str(target)) < 300 else f"{str(target)[:120]}…"
     return RequestError(problem_of.format(path=shown, reason=reason_of(problem)))

@@ -154,11 +154,7 @@ def _shown(names: tuple[str, ...]) -> tuple[str, ...]:
 def no_such(noun: Message, name: str, known: Iterable[str]) -> Message:
     """The sentence for a name that does not exist, or is none."""
     return _(
-        'there is no {noun} "{name}"; {hint}',
-        code="names.no_such",
-        noun=noun,
-        name=name,
-        hint=offered(name, known),
+        'there is no {noun} "{name}"; {hint}', code="names.no_such", noun=noun, name=name, hint=offered(name, known)
     )
 
 

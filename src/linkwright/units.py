@@ -84,9 +84,7 @@ _DIMENSIONS: Mapping[str, tuple[Dimension, str, float]] = {
     "length_per_angle_squared": ((1, 0, 0, -2), "m/rad²", 1e7),
     "per_angle": ((0, 0, 0, -1), "1/rad", 1e7),
 }
-DIMENSIONS: Mapping[str, Dimension] = {
-    name: powers for name, (powers, _unused, _unused2) in _DIMENSIONS.items()
-}
+DIMENSIONS: Mapping[str, Dimension] = {name: powers for name, (powers, _unused, _unused2) in _DIMENSIONS.items()}
 SI_UNITS: Mapping[str, str] = {name: unit for name, (_unused, unit, _unused2) in _DIMENSIONS.items()}
 #: Dimensions of results that nobody gives, with their SI units.
 FURTHER: Mapping[str, str] = {
@@ -267,9 +265,7 @@ _PLAIN = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?) ?([^\s\d*(),.+
 SENSE = re.compile(r"\b(c?cw|(counter|anti)?-?clockwise)\b|[顺逆]时针", re.IGNORECASE)
 TURNING = ("angle", "angular_velocity", "angular_acceleration", "torque")
 _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
-_FACTOR = re.compile(
-    r"\s*((?:(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[^\W\d_])+|[°%])\s*((?:\^|\*\*)\s*[-−]?\d+|⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+)?\s*"
-)
+_FACTOR = re.compile(r"\s*((?:(?![⁰¹²³⁴⁵⁶⁷⁸⁹])[^\W\d_])+|[°%])\s*((?:\^|\*\*)\s*[-−]?\d+|⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+)?\s*")
 _JOINT = re.compile(r"[*·⋅/]")
 
 
@@ -289,8 +285,7 @@ def exponent(text: str) -> int:
     power = int(digits[:4]) if digits else 1
     if abs(power) > 9:
         raise QuantityError(
-            _('the exponent "{digits}" is too large', digits=digits[:20]),
-            _("units take exponents from -9 to 9"),
+            _('the exponent "{digits}" is too large', digits=digits[:20]), _("units take exponents from -9 to 9")
         )
     return power
 
@@ -380,13 +375,7 @@ def _letters(text: str) -> str:
 @cache
 def example(dimension: str) -> str:
     """A right form of a quantity of this dimension, for remedies: ``60.5 mm``."""
-    numbers = {
-        "length": "60.5",
-        "angle": "30",
-        "angular_velocity": "170",
-        "mass": "4.5",
-        "dimensionless": "0.1",
-    }
+    numbers = {"length": "60.5", "angle": "30", "angular_velocity": "170", "mass": "4.5", "dimensionless": "0.1"}
     return f"{numbers.get(dimension, '2.5')} {USUAL_UNITS[dimension]}".strip()
 
 
@@ -541,9 +530,7 @@ def _of_weight(kind: Dimension, dimension: str, text: str) -> Message | None:
         return None
     if re.search(r"\blb\b", text):
         return _('lb is a unit of mass, lbf of force: write "{right}"', right=re.sub(r"\blb\b", "lbf", text))
-    return (
-        _('a mass times 9.81 m/s² is a weight: write "({text})*(9.81 m/s^2)"', text=text) if kind[1] else None
-    )
+    return _('a mass times 9.81 m/s² is a weight: write "({text})*(9.81 m/s^2)"', text=text) if kind[1] else None
 
 
 def name_of(kind: Dimension) -> Message:

@@ -35,21 +35,13 @@ def test_every_title_of_the_gallery_is_chinese() -> None:
     """In the list and above every result; in English and in data the titles are those of the files."""
     own = {entry["name"]: entry["title"] for entry in data("gallery", "list")}
     english, chinese = (
-        dict(
-            row[:2]
-            for row in map(cells, shown("gallery", "list", "--lang", language).splitlines())
-            if len(row) > 1
-        )
+        dict(row[:2] for row in map(cells, shown("gallery", "list", "--lang", language).splitlines()) if len(row) > 1)
         for language in ("en", "zh")
     )
     for name in every([*gallery.names(), *gallery.calculations(), *gallery.tasks()], least=80):
         assert english[name] == own[name]
         assert CHINESE.search(chinese[name]) and not ENGLISH.search(chinese[name]), name
-    for command, name in (
-        ("beam", "propped_cantilever"),
-        ("solve", "jaw_crusher_sixbar"),
-        ("structure", "kite"),
-    ):
+    for command, name in (("beam", "propped_cantilever"), ("solve", "jaw_crusher_sixbar"), ("structure", "kite")):
         for language, titles in (("en", english), ("zh", chinese)):
             first = shown(command, f"gallery:{name}", "--lang", language).splitlines()[0]
             assert first.startswith(titles[name])
@@ -203,12 +195,7 @@ SYMBOLS = {"rad", "mm", "min"}
         ["drag_link", "quick_return_ratio=1.8", "frame=100 mm"],
         ["toggle", "force_ratio=20", "distance=5 mm", "stroke=100 mm"],
         ["straight_line", "length=100 mm"],
-        [
-            "motion",
-            "unit=mm",
-            "angle_unit=deg",
-            "poses=[[0, 0, 0], [40, 10, 30], [60, 40, 50], [70, 70, 80]]",
-        ],
+        ["motion", "unit=mm", "angle_unit=deg", "poses=[[0, 0, 0], [40, 10, 30], [60, 40, 50], [70, 70, 80]]"],
     ],
     ids=lambda task: task[0].removeprefix("gallery:"),
 )
@@ -226,9 +213,7 @@ driver: {turn: crank, about: O1, speed: 1 rad/s}
 """
 
 
-@pytest.mark.parametrize(
-    "text", [MISSING, *(f"format: 1\nkind: {kind}\n" for kind in ("beam", "belt", "mounts"))]
-)
+@pytest.mark.parametrize("text", [MISSING, *(f"format: 1\nkind: {kind}\n" for kind in ("beam", "belt", "mounts"))])
 def test_missing_keys_are_said_in_chinese(text: str, tmp_path: Path) -> None:
     """The key with YAML's colon, its quantity or form, and an example; the English description stays English."""
     path = tmp_path / "missing.yaml"
@@ -238,20 +223,13 @@ def test_missing_keys_are_said_in_chinese(text: str, tmp_path: Path) -> None:
     for found in every([each for each in file["findings"] if each["code"] == "missing-key"]):
         place = f"{found['where']}: {found['key']}: " if found["key"] else f"{found['where']}: "
         (key,) = re.findall(r'"(.*?)"', found["message"])
-        (line,) = [
-            each for each in printed if each.startswith(place) and f"{key}: " in each.removeprefix(place)
-        ]
-        assert CHINESE.search(line) and not re.search("[A-Za-z]{2,} [a-z]{2,}", line.removeprefix(place)), (
-            line
-        )
+        (line,) = [each for each in printed if each.startswith(place) and f"{key}: " in each.removeprefix(place)]
+        assert CHINESE.search(line) and not re.search("[A-Za-z]{2,} [a-z]{2,}", line.removeprefix(place)), line
 
 
 @pytest.mark.parametrize(
     "arguments",
-    [
-        ["validate", "--case", "conveyor"],
-        ["metrics", "gallery:change_point_fourbar", "--steps", "6"],
-    ],
+    [["validate", "--case", "conveyor"], ["metrics", "gallery:change_point_fourbar", "--steps", "6"]],
     ids=lambda arguments: arguments[0],
 )
 def test_results_are_chinese(arguments: list[str]) -> None:

@@ -73,9 +73,7 @@ def test_help_of_completions_is_in_the_language(language: str) -> None:
     for name in every(commands.names(), least=30):
         assert f"plain,{name}\t{commands.command(name).summary.translate(language)}" in offered
     steps = next(each for each in commands.command("solve").params if each.name == "steps")
-    assert str(getattr(steps, "help", "").translate(language)) in asked(
-        "fish", "linkwright solve --ste", language
-    )
+    assert str(getattr(steps, "help", "").translate(language)) in asked("fish", "linkwright solve --ste", language)
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])

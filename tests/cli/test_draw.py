@@ -47,9 +47,7 @@ def test_positions_out_of_reach_are_told_in_the_language_asked_for(tmp_path: Pat
 
 
 def test_drawing_shows_what_is_asked_for(tmp_path: Path) -> None:
-    root = drawn(
-        tmp_path, "--at", "30 deg", "--overlay", "limits", "--paths", "C,jaw.D", "--velocities", "--centres"
-    )
+    root = drawn(tmp_path, "--at", "30 deg", "--overlay", "limits", "--paths", "C,jaw.D", "--velocities", "--centres")
     found = styles(root)
     assert found.count("lw-pin") == 6 + 2 * 3  # A, B, C in both limit positions
     assert found.count("lw-trace") == 2
@@ -59,9 +57,7 @@ def test_drawing_shows_what_is_asked_for(tmp_path: Path) -> None:
 
 
 def test_forces_dimensions_labels_inputs(tmp_path: Path) -> None:
-    root = drawn(
-        tmp_path, "--forces", "O5", "--dimensions", "pitman", "O1:O3", "--labels", "points", "--no-inputs"
-    )
+    root = drawn(tmp_path, "--forces", "O5", "--dimensions", "pitman", "O1:O3", "--labels", "points", "--no-inputs")
     found = styles(root)
     assert found.count("lw-force-head") == 1 + 1  # the arrow and its legend
     assert {"1.25 m", f"{math.hypot(0.94, 1.0):.6g} m"} <= texts(root)

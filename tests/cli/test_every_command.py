@@ -26,8 +26,13 @@ ASKED: dict[str, list[str]] = {
     "machine": ["gallery:jaw_crusher_fourbar"],
     "metrics": ["gallery:kite"],
     "optimize": [
-        "gallery:crank_rocker", "--vary", "coupler.length=3.4..3.6m", "--minimize", "rocker.angle range",
-        "--evaluations", "20",
+        "gallery:crank_rocker",
+        "--vary",
+        "coupler.length=3.4..3.6m",
+        "--minimize",
+        "rocker.angle range",
+        "--evaluations",
+        "20",
     ],
     "plot": ["gallery:kite", "--output", "OUT.svg"],
     "program": ["gallery:production_mix"],
@@ -39,8 +44,13 @@ ASKED: dict[str, list[str]] = {
     "structure": ["gallery:kite"],
     "study": ["gallery:crank_rocker", "--vary", "coupler.length=3.4..3.6m:2", "--metrics", "swing_angle"],
     "sweep": [
-        "gallery:crank_rocker", "--vary", "coupler.length=3.4..3.6m:2", "--numbers", "rocker.angle range",
-        "--folder", "OUT",
+        "gallery:crank_rocker",
+        "--vary",
+        "coupler.length=3.4..3.6m:2",
+        "--numbers",
+        "rocker.angle range",
+        "--folder",
+        "OUT",
     ],
     "synthesize": ["slider_crank", "stroke=397.5 mm", "rod_ratio=3.55", "offset_ratio=0.305"],
     "tolerance": ["gallery:crank_rocker_tolerance"],
@@ -48,7 +58,7 @@ ASKED: dict[str, list[str]] = {
     "validate": ["--case", "conveyor"],
     "variants": ["gallery:crank_rocker", "--count", "2", "--seed", "1", "--to", "key", "--output", "OUT"],
     "vibration": ["gallery:free_decay"],
-}  # fmt: skip
+}
 #: What answers with a script, a schema or a server; these have tests of their own.
 OTHERS = {"completion", "schema", "studio"}
 

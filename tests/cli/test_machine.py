@@ -134,9 +134,7 @@ def test_the_curves_of_the_cycle_are_written(tmp_path: Path) -> None:
 
 def test_closeness_to_a_singular_position_is_told() -> None:
     """At the input where the transmission angle of the dyad is smallest."""
-    told = [
-        line for line in shown("machine", "gallery:swing_conveyor").splitlines() if "coupler+rocker" in line
-    ]
+    told = [line for line in shown("machine", "gallery:swing_conveyor").splitlines() if "coupler+rocker" in line]
     assert [numbers(line) for line in told] == [[332.241]]
 
 
@@ -144,11 +142,7 @@ def test_closeness_to_a_singular_position_is_told() -> None:
     ("arguments", "code", "values"),
     [
         ([], "machine.nothing_given", {}),
-        (
-            [SIX, "--fluctuation", "0"],
-            "range",
-            {"shown": "0"},
-        ),
+        ([SIX, "--fluctuation", "0"], "range", {"shown": "0"}),
         ([FOUR, "--fluctuation", "30"], "range", {"shown": "30"}),
         ([SIX, "--fluctuation=-0.02"], "range", {"shown": "-0.02"}),
         ([SIX, "--fluctuation", "3%"], "type", {"text": "3%"}),
@@ -184,8 +178,11 @@ def test_all_that_is_wrong_with_the_options_is_told_at_once() -> None:
     wrong = ["--ratio", "0", "--margin", "much", "--rim", "density=7850 kg, width=0.1, thicknes=0.1"]
     told = finding_codes("machine", SIX, *wrong, code=2)
     assert dict(told) == {
-        "--ratio": "range", "--margin": "type", "--rim.density": "wrong-dimension", "--rim.thicknes": "unknown-key"
-    }  # fmt: skip
+        "--ratio": "range",
+        "--margin": "type",
+        "--rim.density": "wrong-dimension",
+        "--rim.thicknes": "unknown-key",
+    }
 
 
 def test_the_column_of_an_unknown_name_is_marked() -> None:
@@ -203,9 +200,7 @@ def test_the_column_of_an_unknown_name_is_marked() -> None:
         (["gallery:excavator"], "running.one_driver", {}),
     ],
 )
-def test_what_gives_no_flywheel_is_refused(
-    arguments: list[str], code: str, values: dict[str, object]
-) -> None:
+def test_what_gives_no_flywheel_is_refused(arguments: list[str], code: str, values: dict[str, object]) -> None:
     is_refused(["machine", *arguments], code, ends=1, **values)
 
 

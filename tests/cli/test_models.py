@@ -39,8 +39,10 @@ def test_check_of_good_models() -> None:
         assert numbers(line) == [links, 1]
     files = data(*asked)["files"]
     assert [(each["ok"], each["links"], each["mobility"], each["findings"]) for each in files] == [
-        (True, 5, 1, []), (True, 3, 1, []), (True, 5, 1, []),
-    ]  # fmt: skip
+        (True, 5, 1, []),
+        (True, 3, 1, []),
+        (True, 5, 1, []),
+    ]
 
 
 def test_check_lists_findings_of_every_file(tmp_path: Path) -> None:
@@ -54,9 +56,7 @@ def test_check_lists_findings_of_every_file(tmp_path: Path) -> None:
     assert (slip["key"], slip["code"]) == ("links.crank.lenght", "unknown-key")
     assert slip["where"].startswith("wrong.yaml:6:") and '"length"' in slip["remedy"]
     (free,) = second["findings"]
-    assert (free["code"], free["where"]) == ("mobility.free_idle", str(loose)) and "'loose'" in free[
-        "message"
-    ]
+    assert (free["code"], free["where"]) == ("mobility.free_idle", str(loose)) and "'loose'" in free["message"]
     for each in [*first["findings"], *second["findings"]]:
         assert f"{each['where']}: " in printed and each["message"] in printed
 
@@ -125,11 +125,7 @@ def _computes(right: str) -> bool:
 
 def test_gallery_lists_every_model_with_its_title() -> None:
     entries = data("gallery", "list")
-    assert [entry["name"] for entry in entries] == [
-        *gallery.names(),
-        *gallery.calculations(),
-        *gallery.tasks(),
-    ]
+    assert [entry["name"] for entry in entries] == [*gallery.names(), *gallery.calculations(), *gallery.tasks()]
     assert all(entry["title"] and entry["purpose"] for entry in every(entries, least=50))
     assert "jaw_crusher_sixbar " in shown("gallery", "list", "crusher")
 

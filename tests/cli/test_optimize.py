@@ -11,9 +11,16 @@ import linkwright as lw
 from linkwright.cli import main
 
 SEARCH = [
-    "optimize", "gallery:jaw_crusher_sixbar", "--vary", "pitman.length=1.15..1.35m", "crank.length=80..120mm",
-    "--keep", "jaw.angle range=same within 1 %", "--evaluations", "200",
-]  # fmt: skip
+    "optimize",
+    "gallery:jaw_crusher_sixbar",
+    "--vary",
+    "pitman.length=1.15..1.35m",
+    "crank.length=80..120mm",
+    "--keep",
+    "jaw.angle range=same within 1 %",
+    "--evaluations",
+    "200",
+]
 
 #: A machine with a length.
 LENGTH = """\

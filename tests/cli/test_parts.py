@@ -12,11 +12,23 @@ from linkwright.cli import main
 
 #: The command that calculates each kind of file.
 COMMANDS = {
-    "beam": "beam", "link_bending": "beam", "forces": "statics", "rigid_body": "statics", "belt": "statics",
-    "wedge": "statics", "rotor": "statics", "cam": "cam", "vibration": "vibration", "follower": "vibration",
-    "mounts": "vibration", "statistics": "statistics", "program": "program", "tolerance": "tolerance",
-    "trajectory": "trajectory", "throw": "trajectory",
-}  # fmt: skip
+    "beam": "beam",
+    "link_bending": "beam",
+    "forces": "statics",
+    "rigid_body": "statics",
+    "belt": "statics",
+    "wedge": "statics",
+    "rotor": "statics",
+    "cam": "cam",
+    "vibration": "vibration",
+    "follower": "vibration",
+    "mounts": "vibration",
+    "statistics": "statistics",
+    "program": "program",
+    "tolerance": "tolerance",
+    "trajectory": "trajectory",
+    "throw": "trajectory",
+}
 
 
 def test_numbers_of_the_table() -> None:
@@ -81,22 +93,14 @@ def test_check_reads_calculations(tmp_path: Path) -> None:
     assert (file["ok"], file["kind"]) == (True, "beam")
     path = tmp_path / "b.yaml"
     path.write_text(
-        "format: 1\nkind: beam\nlength: 1 m\nmaterial: S235\nsection: IPE 80\nsupports: {}\n",
-        encoding="utf-8",
+        "format: 1\nkind: beam\nlength: 1 m\nmaterial: S235\nsection: IPE 80\nsupports: {}\n", encoding="utf-8"
     )
     assert finding_codes("check", str(path)) == [("supports", "can_move")] * 2
 
 
 def test_what_only_the_solution_shows_has_its_place(tmp_path: Path) -> None:
     path = tmp_path / "p.yaml"
-    lines = [
-        "format: 1",
-        "kind: program",
-        "variables: {x: {from: 0}}",
-        "maximize: x",
-        "subject_to:",
-        "  a: x >= 9",
-    ]
+    lines = ["format: 1", "kind: program", "variables: {x: {from: 0}}", "maximize: x", "subject_to:", "  a: x >= 9"]
     path.write_text("\n".join([*lines, "  b: x <= 3", ""]), encoding="utf-8")
     (found,) = data("program", str(path), code=1)["findings"]
     assert (found["where"], found["key"], found["code"]) == ("p.yaml:6:6", "subject_to.a", "infeasible")

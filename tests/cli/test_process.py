@@ -23,9 +23,7 @@ def test_the_installed_command_runs() -> None:
 
 def test_a_reader_that_leaves_is_no_error() -> None:
     with subprocess.Popen(
-        [*RUN, "structure", "gallery:theo_jansen_leg", "--program"],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
+        [*RUN, "structure", "gallery:theo_jansen_leg", "--program"], stdout=subprocess.PIPE, stderr=subprocess.PIPE
     ) as process:
         assert process.stdout is not None and process.stderr is not None
         process.stdout.close()

@@ -39,9 +39,7 @@ def test_a_full_output_is_said_and_is_no_success(command: list[str]) -> None:
 @pytest.mark.parametrize("command", COMMANDS[:3], ids=" ".join)
 def test_a_closed_output_is_said_and_is_no_success(command: list[str]) -> None:
     line = 'exec "$@" >&-'
-    done = subprocess.run(
-        ["sh", "-c", line, "sh", *RUN, *command], stderr=subprocess.PIPE, text=True, check=False
-    )
+    done = subprocess.run(["sh", "-c", line, "sh", *RUN, *command], stderr=subprocess.PIPE, text=True, check=False)
     assert done.returncode == 1
     (said,) = done.stderr.splitlines()
     assert said.startswith(LOST)
@@ -49,9 +47,7 @@ def test_a_closed_output_is_said_and_is_no_success(command: list[str]) -> None:
 
 @pytest.mark.rotating
 def test_closed_errors_do_not_matter() -> None:
-    done = subprocess.run(
-        ["sh", "-c", 'exec "$@" 2>&-', "sh", *RUN, *CHECK], stdout=subprocess.PIPE, check=False
-    )
+    done = subprocess.run(["sh", "-c", 'exec "$@" 2>&-', "sh", *RUN, *CHECK], stdout=subprocess.PIPE, check=False)
     assert done.returncode == 0
     assert b"gallery:kite" in done.stdout
 
@@ -120,9 +116,7 @@ def test_an_output_that_is_a_device_stays_one(tmp_path: Path) -> None:
 def test_a_picture_too_large_for_memory_is_refused(tmp_path: Path) -> None:
     pytest.importorskip("resvg_py")
     target = tmp_path / "a.png"
-    told = is_refused(
-        ["draw", "gallery:kite", "--output", str(target), "--width", "1000000"], "picture.bad_width"
-    )
+    told = is_refused(["draw", "gallery:kite", "--output", str(target), "--width", "1000000"], "picture.bad_width")
     assert not target.exists()
     assert 3000 < int(str(told.values["most"])) < 60_000
 

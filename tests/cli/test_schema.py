@@ -56,9 +56,7 @@ def test_parts_of_strokes_are_in_the_schema() -> None:
 
 def faults(value: Any, shape: dict[str, Any], place: str = "") -> list[str]:
     """What a schema says against a value; only the words of JSON Schema that are used here."""
-    found = [
-        f"{place}: {key}" for key in shape.get("required", ()) if isinstance(value, dict) and key not in value
-    ]
+    found = [f"{place}: {key}" for key in shape.get("required", ()) if isinstance(value, dict) and key not in value]
     if "const" in shape and value != shape["const"]:
         found.append(f"{place}: not {shape['const']}")
     if "enum" in shape and value not in shape["enum"]:
@@ -73,14 +71,7 @@ def faults(value: Any, shape: dict[str, Any], place: str = "") -> list[str]:
     for word in ("oneOf", "anyOf"):
         if word in shape and all(faults(value, each, place) for each in shape[word]):
             found.append(f"{place}: fits no form")
-    kinds = {
-        "object": dict,
-        "array": list,
-        "string": str,
-        "number": (int, float),
-        "integer": int,
-        "boolean": bool,
-    }
+    kinds = {"object": dict, "array": list, "string": str, "number": (int, float), "integer": int, "boolean": bool}
     wanted = shape.get("type", [])
     wanted = [wanted] if isinstance(wanted, str) else wanted
     if any(each in kinds for each in wanted) and not any(
@@ -118,9 +109,7 @@ def test_the_schema_fits_every_calculation_of_the_gallery_and_no_misspelt_one(
 def shown_files() -> list[str]:
     """Every machine and task of the gallery, and every whole file that the documentation prints."""
     pages = sorted((Path(__file__).parents[2] / "docs").glob("*/**/*.md"))
-    blocks = [
-        each for page in pages for each in re.findall(r"```yaml\n(.*?)```", page.read_text("utf-8"), re.S)
-    ]
+    blocks = [each for page in pages for each in re.findall(r"```yaml\n(.*?)```", page.read_text("utf-8"), re.S)]
     held = [gallery.content(name).decode() for name in (*gallery.names(), *gallery.tasks())]
     return [*held, *(each for each in blocks if each.startswith("format: 1\n"))]
 

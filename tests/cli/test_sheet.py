@@ -13,9 +13,7 @@ def test_the_command_writes_a_sheet(
     ending: str, begins: bytes, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = tmp_path / f"crank.{ending}"
-    assert (
-        main(["sheet", "gallery:slider_crank_offset", "--size", "A4", "--output", str(path), "--json"]) == 0
-    )
+    assert main(["sheet", "gallery:slider_crank_offset", "--size", "A4", "--output", str(path), "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert path.read_bytes().startswith(begins)
     assert told["size"] == "A4" and "mechanism" in told["panels"] and told["notes"]

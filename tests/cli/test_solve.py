@@ -27,9 +27,7 @@ def published(name: str) -> np.ndarray:
 
 
 @pytest.mark.parametrize("columns", ["60", "80", "100", "200"])
-def test_crusher_prints_the_published_jaw_motion_by_default(
-    columns: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_crusher_prints_the_published_jaw_motion_by_default(columns: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", columns)
     printed = shown("solve", CRUSHER, "--si")
     lines = printed.split("\n\n")[1].splitlines()
@@ -65,8 +63,11 @@ def test_forces_as_reported_stand_in_the_data() -> None:
 def largest_forces(printed: str, joints: Collection[str]) -> dict[tuple[str, str], float]:
     """The largest joint forces that stand beneath the table of motion: joint, link, and the force."""
     body = printed.split("\n\n", 2)[2]
-    return {(row[0], row[1]): float(row[2]) for row in map(str.split, body.splitlines()) if row[:1] and
-            row[0] in joints and len(row) > 3}  # fmt: skip
+    return {
+        (row[0], row[1]): float(row[2])
+        for row in map(str.split, body.splitlines())
+        if row[:1] and row[0] in joints and len(row) > 3
+    }
 
 
 def test_residuals_and_largest_forces_stand_beneath() -> None:
@@ -150,9 +151,7 @@ def test_inputs_of_several_drivers() -> None:
     columns = data(*asked, f"{first}=40 deg, 50 deg; {second}=-70 deg")["columns"]
     assert columns[f"{first} [rad]"] == pytest.approx(np.radians([40, 50]))
     assert columns[f"{second} [rad]"] == pytest.approx(np.radians([-70, -70]))
-    a, c, b = (
-        np.array([columns[f"{point}.position.{axis} [m]"] for axis in "xy"]) for point in ("A", "C", "B")
-    )
+    a, c, b = (np.array([columns[f"{point}.position.{axis} [m]"] for axis in "xy"]) for point in ("A", "C", "B"))
     assert np.hypot(*(a - b)) == pytest.approx(0.22, rel=1e-12)
     assert np.hypot(*(c - b)) == pytest.approx(0.18, rel=1e-12)
     uneven = f"{first}=1deg,2deg; {second}=1deg,2deg,3deg"
@@ -168,12 +167,16 @@ def test_columns_are_picked_by_name_beginning_and_pattern() -> None:
     picked = ["coupler.angle", "rocker", "A.velocity.*"]
     names = list(data("solve", "gallery:crank_rocker", "--steps", "4", "--columns", *picked)["columns"])
     assert [name.split(" [")[0] for name in names] == [
-        "time", "driver", "coupler.angle", "rocker.angle", "rocker.angular_velocity", "rocker.angular_acceleration",
-        "A.velocity.x", "A.velocity.y",
-    ]  # fmt: skip
-    is_refused(
-        ["solve", "gallery:crank_rocker", "--columns", "rocekr"], "study.no_such_output", offer="rocker"
-    )
+        "time",
+        "driver",
+        "coupler.angle",
+        "rocker.angle",
+        "rocker.angular_velocity",
+        "rocker.angular_acceleration",
+        "A.velocity.x",
+        "A.velocity.y",
+    ]
+    is_refused(["solve", "gallery:crank_rocker", "--columns", "rocekr"], "study.no_such_output", offer="rocker")
 
 
 def test_points_are_added_to_the_table(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -231,8 +234,7 @@ def test_files_are_not_replaced_unless_forced(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "code"),
-    [("out.txt", "cli.bad_suffix"), ("nowhere/out.csv", "file.no_folder"), (".", "cli.bad_suffix")],
+    ("name", "code"), [("out.txt", "cli.bad_suffix"), ("nowhere/out.csv", "file.no_folder"), (".", "cli.bad_suffix")]
 )
 def test_files_that_cannot_be_written(name: str, code: str, tmp_path: Path) -> None:
     is_refused(["solve", "gallery:crank_rocker", "--output", str(tmp_path / name)], code)
@@ -316,9 +318,7 @@ def test_the_components_of_a_largest_force_are_those_of_the_side_where_it_is_so_
         encoding="utf-8",
     )
     below = shown("solve", str(path)).split("\n\n", 2)[2]
-    table = [
-        line.split() for line in below.splitlines() if line.split()[:1] in (["O"], ["A"], ["B"], ["way"])
-    ]
+    table = [line.split() for line in below.splitlines() if line.split()[:1] in (["O"], ["A"], ["B"], ["way"])]
     assert [row[0] for row in table] == ["O", "A", "B", "way"]
     for row in table:
         force, across, along = map(float, row[2:5])
@@ -337,7 +337,5 @@ def test_of_a_cycle_of_many_turns_the_first_is_shown(tmp_path: Path) -> None:
     )
     whole = shown("solve", str(file), "--steps", "4")
     assert [row[0] for row in rows_of_numbers(whole)] == [0.0, 9090.0, 18180.0, 27270.0, 36360.0]
-    notes, others = (
-        [each for each in text.splitlines() if 101 in numbers(each)] for text in (printed, whole)
-    )
+    notes, others = ([each for each in text.splitlines() if 101 in numbers(each)] for text in (printed, whole))
     assert len(notes) == len(others) + 1  # that the table shows the first of them

@@ -41,7 +41,7 @@ def test_help_of_a_command_has_examples_and_exit_codes(name: str, language: str)
             "0    done, nothing to complain about\n"
             "1    an error in the model, or a position that cannot be reached\n"
             "2    the command itself is wrong: an unknown option, name or file\n"
-            "130  interrupted",
+            "130  interrupted"
         )
         .translate(language)
         .splitlines()[-1]
@@ -67,11 +67,7 @@ SLIPS: list[tuple[list[str], str, dict[str, object]]] = [
     (["solve", "gallery:crank_rokcer"], "no-file", {"name": "crank_rokcer"}),
     (["solve", "m", "--steps", "0"], "range", {"text": "0"}),
     (["solve", "m", "--steps"], "cli.needs_value", {"name": "--steps"}),
-    (
-        ["solve", "m", "--steps", "3", "--at", "0 deg"],
-        "cli.not_together",
-        {"name": "--at", "other": "--steps"},
-    ),
+    (["solve", "m", "--steps", "3", "--at", "0 deg"], "cli.not_together", {"name": "--at", "other": "--steps"}),
     (
         ["solve", "gallery:crank_rocker", "--static", "--no-forces"],
         "cli.not_together",
@@ -101,9 +97,7 @@ def test_data_of_a_refusal_have_its_code() -> None:
 
 
 @pytest.mark.parametrize(
-    ("there", "asked"),
-    [("crusher.yaml", "crasher.yaml"), (None, "gallery:crank_rokcer")],
-    ids=["file", "gallery"],
+    ("there", "asked"), [("crusher.yaml", "crasher.yaml"), (None, "gallery:crank_rokcer")], ids=["file", "gallery"]
 )
 def test_a_file_name_with_a_slip_offers_the_nearest(
     there: str | None, asked: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -118,9 +112,12 @@ def test_the_language_is_that_of_the_option_or_of_the_environment(monkeypatch: p
     slip = ["gallery", "show", "kiet"]
     english, chinese = (_("error").translate(language) for language in ("en", "zh"))
     for arguments, environment, head in (
-        ([], None, english), ([], "zh", chinese), (["--lang=en"], "zh", english), (["--lang", "zh"], None, chinese),
+        ([], None, english),
+        ([], "zh", chinese),
+        (["--lang=en"], "zh", english),
+        (["--lang", "zh"], None, chinese),
         ([], "de", english),
-    ):  # fmt: skip
+    ):
         if environment:
             monkeypatch.setenv("LINKWRIGHT_LANG", environment)
         else:

@@ -42,9 +42,7 @@ def test_files_are_written_and_can_be_solved(tmp_path: Path) -> None:
 def test_files_have_the_speed_asked_for(tmp_path: Path) -> None:
     words = ["synthesize", "quick_return", "quick_return_ratio=1.5", "frame=430 mm", "--speed", "50 rpm"]
     assert main([*words, "--output", str(tmp_path)]) == 0
-    (turned,) = set(
-        lw.solve_motion(lw.load(*tmp_path.glob("*.yaml")), steps=12).link("crank").angular_velocity
-    )
+    (turned,) = set(lw.solve_motion(lw.load(*tmp_path.glob("*.yaml")), steps=12).link("crank").angular_velocity)
     assert turned == pytest.approx(50 * 2 * math.pi / 60)
 
 
@@ -64,8 +62,10 @@ def test_a_demand_that_fails_shows_the_nearest() -> None:
     ended = run(*asked)
     assert ended.code == 1 and ended.told is not None
     assert (ended.told.code, ended.told.values["value"], ended.told.values["minimum"]) == (
-        "synthesize.slider_crank.ratio", "1.1", "1.3",
-    )  # fmt: skip
+        "synthesize.slider_crank.ratio",
+        "1.1",
+        "1.3",
+    )
     assert rows(ended.out)[-1][-3:] == ["0.00°", "1.3", "22.8 mm"]
     (nearest,) = data(*asked, code=1)["nearest"]["candidates"]
     assert nearest["link_ratio"] == pytest.approx(1.3, rel=1e-9)
@@ -133,9 +133,7 @@ TASK = "format: 1\nsynthesis:\n  task: slider_crank\n  stroke: 40 mm\n  rod_rati
         ),
     ],
 )
-def test_a_file_with_a_task_alone_is_checked(
-    text: str, found: list[tuple[str, str, str]], tmp_path: Path
-) -> None:
+def test_a_file_with_a_task_alone_is_checked(text: str, found: list[tuple[str, str, str]], tmp_path: Path) -> None:
     path = tmp_path / "task.yaml"
     path.write_text(text, encoding="utf-8")
     (file,) = data("check", str(path), code=int(bool(found)))["files"]
@@ -173,13 +171,9 @@ def test_what_is_met_but_for_rounding_has_no_error() -> None:
 def test_the_worked_solution() -> None:
     """Every formula with its numbers; in data beside the candidates."""
     printed = shown(*PRESS, "--worked")
-    assert (
-        "397.5/(√((3.55 + 1)² - 0.305²) - √((3.55 - 1)² - 0.305²))" in printed and "= 197.951 mm" in printed
-    )
+    assert "397.5/(√((3.55 + 1)² - 0.305²) - √((3.55 - 1)² - 0.305²))" in printed and "= 197.951 mm" in printed
     found = data(*PRESS, "--worked")
-    (line,) = [
-        item for step in found["worked"]["steps"] for item in step["items"] if item.get("symbol") == "r"
-    ]
+    (line,) = [item for step in found["worked"]["steps"] for item in step["items"] if item.get("symbol") == "r"]
     assert line["value"] == pytest.approx(197.9511, abs=5e-5)
     assert found["candidates"][0]["crank [m]"] == pytest.approx(0.1979511, abs=1e-7)
 
@@ -192,8 +186,6 @@ def test_a_curve_beside_its_task(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     task = folder / "curve.yaml"
     task.write_text("format: 1\nsynthesis: {task: free_curve, file: letter.csv, joints: 5, seconds: 0.1}\n")
     monkeypatch.chdir(elsewhere)
-    is_refused(
-        ["synthesize", str(task)], "synthesize.free_curve.file", ends=1, path=str(folder / "letter.csv")
-    )
+    is_refused(["synthesize", str(task)], "synthesize.free_curve.file", ends=1, path=str(folder / "letter.csv"))
     (folder / "letter.csv").write_text("7,7\n7,7\n")
     is_refused(["synthesize", str(task)], "synthesize.path.one_place", ends=1)

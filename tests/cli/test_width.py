@@ -38,8 +38,7 @@ def test_lines_fit_a_terminal_of_80_columns(command: list[str], language: str) -
 
 def test_folding_loses_nothing() -> None:
     narrow, wide = (
-        CODES.sub("", on_terminal("metrics", "gallery:jaw_crusher_sixbar", columns=columns))
-        for columns in (80, 200)
+        CODES.sub("", on_terminal("metrics", "gallery:jaw_crusher_sixbar", columns=columns)) for columns in (80, 200)
     )
     assert widest(narrow.splitlines()) <= 80 < widest(wide.splitlines())
     assert sorted("".join(narrow.split())) == sorted("".join(wide.split()))

@@ -21,9 +21,7 @@ def test_every_text_is_translated_with_the_same_values(language: str) -> None:
     english, other = sentences("en"), sentences(language)
     assert set(other) == set(english) and len(english) > 4000
     assert [key for key, text in other.items() if not text] == []
-    assert [
-        key for key, text in other.items() if "$" not in text and fields(text) != fields(english[key])
-    ] == []
+    assert [key for key, text in other.items() if "$" not in text and fields(text) != fields(english[key])] == []
 
 
 @pytest.mark.parametrize("name", commands.names())

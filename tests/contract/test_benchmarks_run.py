@@ -101,9 +101,7 @@ def test_loss_near_a_dead_point_is_that_of_the_condition_number() -> None:
         assert max(near.multiples) < 16.0
 
 
-def test_command_prints_tables_and_goals(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_command_prints_tables_and_goals(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     from benchmarks import __main__ as command
     from benchmarks import report, sections
 

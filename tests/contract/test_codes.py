@@ -86,9 +86,12 @@ def test_what_is_noted_by_a_reader_has_a_code() -> None:
     calls = [
         (path, node, 5 if node.func.attr == "error" else 4)
         for path, node in codes.nodes()
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and len(node.args) > 1
-        and node.func.attr in ("error", "finding") and re.search("reader|^self$", ast.unparse(node.func.value))
-    ]  # fmt: skip
+        if isinstance(node, ast.Call)
+        and isinstance(node.func, ast.Attribute)
+        and len(node.args) > 1
+        and node.func.attr in ("error", "finding")
+        and re.search("reader|^self$", ast.unparse(node.func.value))
+    ]
     for path, node, needed in every(calls, least=80):
         starred = any(isinstance(each, ast.Starred) for each in node.args)
         code = node.args[-1] if starred else node.args[needed - 1] if len(node.args) >= needed else None

@@ -61,9 +61,7 @@ def model() -> lw.Model:
 
 @cache
 def motion_program() -> lw.MotionProgram:
-    return lw.MotionProgram(
-        (lw.Segment(2.0, rise=0.02, law="cycloidal"), lw.Segment(4.28318530717958647, to=0.0))
-    )
+    return lw.MotionProgram((lw.Segment(2.0, rise=0.02, law="cycloidal"), lw.Segment(4.28318530717958647, to=0.0)))
 
 
 def cam() -> lw.Cam:
@@ -102,24 +100,17 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "limits": lambda: lw.limit_positions(crusher(72).motion, "jaw"),
     "range": lambda: lw.input_range(CRUSHER()),
     "metrics": lambda: lw.metrics(crusher()),
-    "coupler curve": lambda: coupler_curve(
-        lw.solve_motion(lw.load("gallery:chebyshev_lambda"), steps=48), "P"
-    ),
+    "coupler curve": lambda: coupler_curve(lw.solve_motion(lw.load("gallery:chebyshev_lambda"), steps=48), "P"),
     "steady running": lambda: lw.steady_running(crusher(), fluctuation=0.03),
     "torque table": lambda: lw.TorqueCurve.from_table([0.3, 1.0, 2.0], [1.0, 2.0, 3.0]),
     "torque expression": lambda: lw.TorqueCurve.from_function("100 + 20*sin(theta)"),
-    "torque difference": lambda: lw.TorqueCurve.constant(3.0).minus(
-        lw.TorqueCurve.from_function("1 + sin(theta)")
-    ),
+    "torque difference": lambda: lw.TorqueCurve.constant(3.0).minus(lw.TorqueCurve.from_function("1 + sin(theta)")),
     "balancing": lambda: lw.balance(lw.load("gallery:crank_rocker"), radius=0.1),
     "worked": lambda: lw.worked(crusher(), 0),
     "comparison": lambda: lw.compare([SIX, "gallery:jaw_crusher_fourbar"], steps=48),
     "study": lambda: lw.study(CRUSHER(), {"crank.length": "90..100 mm:3"}, steps=48),
     "sweep": lambda: lw.sweep(
-        CRUSHER(),
-        {"crank.length": np.linspace(0.09, 0.1, 3)},
-        outputs=["driver.effort rms"],
-        steps=48,
+        CRUSHER(), {"crank.length": np.linspace(0.09, 0.1, 3)}, outputs=["driver.effort rms"], steps=48
     ),
     "sensitivity": lambda: lw.sensitivity(CRUSHER(), of=["driver.effort rms"], by=["crank.length"], steps=48),
     "prepared": lambda: lw.prepare(CRUSHER(), vary=["crank.length"], steps=24),
@@ -131,10 +122,7 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "diagram": lambda: lw.plot(lw.solve_motion(lw.load("gallery:kite"), steps=24)),
     "gear": lambda: lw.Gear(20, 0.002),
     "optimum": lambda: lw.optimize(
-        CRUSHER(),
-        vary={"pitman.length": "1.2..1.3 m"},
-        minimize="peak_input_torque",
-        evaluations=48,
+        CRUSHER(), vary={"pitman.length": "1.2..1.3 m"}, minimize="peak_input_torque", evaluations=48
     ),
     "motion law": lambda: lw.motion_law("modified_sine"),
     "motion program": motion_program,
@@ -147,9 +135,7 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "variants": variants,
     "grades": grades,
     "interruption": lambda: lw.Interrupted(Path("crank.state")),
-    "compensating cam": lambda: lw.compensating_cam(
-        lw.load("gallery:printing_press"), "lead", span=9.0, steps=240
-    ),
+    "compensating cam": lambda: lw.compensating_cam(lw.load("gallery:printing_press"), "lead", span=9.0, steps=240),
     "synthesis": lambda: lw.synthesize("slider_crank", stroke=0.3, rod_ratio=3.5),
 }
 
@@ -165,9 +151,7 @@ MADE_OF_CODE = {
     "Rack",
     "SweepParts",
     "SynthesisError",
-} | {
-    f"Cam{part}" for part in ("Choice", "Conjugate", "Elasticity", "Limits", "Loading", "Material", "Spring")
-}
+} | {f"Cam{part}" for part in ("Choice", "Conjugate", "Elasticity", "Limits", "Loading", "Material", "Spring")}
 MADE_OF_CODE |= {"Segment", "Window", "LivingPage", "Sheet"}
 
 

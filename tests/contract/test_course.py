@@ -79,9 +79,7 @@ def test_questions_of_the_platforms(found: lw.Variants) -> None:
     given: dict[str, dict] = {"params": {}, "correct_answers": {}}
     space: dict[str, object] = {"__file__": "server.py"}
     program = (
-        files[f"{folder}server.py"]
-        .decode()
-        .replace("json.loads((Path(__file__).parent", "(lambda t: t)((VARIANTS")
+        files[f"{folder}server.py"].decode().replace("json.loads((Path(__file__).parent", "(lambda t: t)((VARIANTS")
     )
     space["VARIANTS"] = _Beside(json.loads(files[f"{folder}variants.json"]))
     exec(program, space)
@@ -94,10 +92,7 @@ def test_questions_of_the_platforms(found: lw.Variants) -> None:
     declared = {e.get("identifier") for e in item.iter(f"{QTI}responseDeclaration")}
     asked = {e.get("responseIdentifier") for e in item.iter(f"{QTI}textEntryInteraction")}
     assert declared == asked and len(asked) == len(found.task.questions)
-    right = [
-        float(e.text or "")
-        for e in item.iterfind(f"{QTI}responseDeclaration/{QTI}correctResponse/{QTI}value")
-    ]
+    right = [float(e.text or "") for e in item.iterfind(f"{QTI}responseDeclaration/{QTI}correctResponse/{QTI}value")]
     assert right == pytest.approx(found.variants[0].answers, rel=1e-7)
 
 
@@ -137,11 +132,7 @@ def test_rows_that_cannot_be_graded_are_told_and_the_others_graded(found: lw.Var
     good = {"variant": "1", **dict.fromkeys(names, "1")}
     bad = [{**good, "variant": "99"}, good, {**good, names[0]: "twelve"}, {**good, names[1]: "1.234,5"}]
     grades = lw.grade(key, bad)
-    told = [
-        (each.fault.code, each.fault.values["line"], each.fault.values["text"])
-        for each in grades
-        if each.fault
-    ]
+    told = [(each.fault.code, each.fault.values["line"], each.fault.values["text"]) for each in grades if each.fault]
     assert told == [
         ("course.no_variant", 2, "99"),
         ("course.no_answer", 4, "twelve"),
@@ -193,9 +184,7 @@ def test_a_task_without_a_variant_that_turns() -> None:
         lw.variants(replace(lw.loads(FOUR_BAR), course=course), 1)
 
 
-def test_the_commands(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_commands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.chdir(tmp_path)
     Path("bar.yaml").write_text(FOUR_BAR, encoding="utf-8")
     assert main(["variants", "bar.yaml", "--count", "2", "--to", "key", "moodle"]) == 0
@@ -203,8 +192,11 @@ def test_the_commands(
     key = json.loads(Path("bar-variants/key.json").read_text("utf-8"))
     names = [q["name"] for q in key["questions"]]
     wrong = next(m for m in key["variants"][0]["mistakes"] if m["mistake"] == "rpm_for_radians")
-    rows = [["student", "variant", *names], ["Li", "1", *map(str, wrong["answers"])],
-            ["Wu", "2", *map(str, key["variants"][1]["answers"])]]  # fmt: skip
+    rows = [
+        ["student", "variant", *names],
+        ["Li", "1", *map(str, wrong["answers"])],
+        ["Wu", "2", *map(str, key["variants"][1]["answers"])],
+    ]
     Path("answers.csv").write_text("\n".join(",".join(row) for row in rows), encoding="utf-8")
     capsys.readouterr()
     for language in ("en", "zh"):
@@ -224,7 +216,10 @@ def test_variants_are_equally_hard_by_a_measure_that_is_said() -> None:
     hard = made.difficulty
     assert hard.transmission_angle is not None
     for each in every(made.variants):
-        own = [row.value for row in lw.metrics(lw.solve_motion(each.mechanism, steps=90))
-               if row.metric == "transmission_angle"]  # fmt: skip
+        own = [
+            row.value
+            for row in lw.metrics(lw.solve_motion(each.mechanism, steps=90))
+            if row.metric == "transmission_angle"
+        ]
         assert hard.transmission_angle[0] - 1e-9 <= min(own) <= hard.transmission_angle[1] + 1e-9
     assert 1.0 <= hard.ratio < 16.0

@@ -74,19 +74,9 @@ def files() -> dict[str, bytes]:
         ("variant-1.xml", "<correctResponse><value>", "<correctResponse><value>x", "no numbers"),
         ("variant-1.xml", ' tolerance="', ' tolerance="-', "tolerance"),
         ("variant-1.xml", 'toleranceMode="absolute"', 'toleranceMode="about"', "toleranceMode"),
-        (
-            "variant-1.xml",
-            '<setOutcomeValue identifier="SCORE">',
-            '<setOutcomeValue identifier="S">',
-            "undeclared",
-        ),
+        ("variant-1.xml", '<setOutcomeValue identifier="SCORE">', '<setOutcomeValue identifier="S">', "undeclared"),
         ("variant-1.xml", '<correct identifier="R0"/>', '<correct identifier="R0"/><null/>', "expression"),
-        (
-            "variant-1.xml",
-            "<responseProcessing>",
-            '<responseProcessing template="match_correct">',
-            "template",
-        ),
+        ("variant-1.xml", "<responseProcessing>", '<responseProcessing template="match_correct">', "template"),
         ("variant-1.xml", "images/variant-1.svg", "images/none.svg", "not of the resource"),
         ("variant-1.xml", "<tr><td>", "<tr><p/><td>", "p in tr"),
         ("imsmanifest.xml", "<organizations/>", "", "order of parts"),
@@ -94,9 +84,7 @@ def files() -> dict[str, bytes]:
         ("imsmanifest.xml", "<schemaversion>1.0.0", "<schemaversion>3", "schema"),
     ],
 )
-def test_faults_of_packages_are_found(
-    files: dict[str, bytes], name: str, old: str, new: str, sentence: str
-) -> None:
+def test_faults_of_packages_are_found(files: dict[str, bytes], name: str, old: str, new: str, sentence: str) -> None:
     faults = package_faults(_changed(files["qti.zip"], name, old, new))
     assert any(sentence in fault for fault in faults)
 
@@ -134,9 +122,7 @@ def test_faults_of_banks_are_found(files: dict[str, bytes], old: str, new: str, 
         ("question.html", "{{params.picture}}", "{{params.drawing}}", "parameter drawing"),
     ],
 )
-def test_faults_of_folders_are_found(
-    files: dict[str, bytes], name: str, old: str, new: str, sentence: str
-) -> None:
+def test_faults_of_folders_are_found(files: dict[str, bytes], name: str, old: str, new: str, sentence: str) -> None:
     folder = {path.rsplit("/", 1)[1]: content for path, content in files.items() if "prairielearn" in path}
     data = json.loads(folder["variants.json"])[0]
     text = folder[name].decode()

@@ -37,9 +37,7 @@ def test_every_requirement_is_imported_and_every_import_is_required() -> None:
     project = tomllib.loads(PROJECT.read_text(encoding="utf-8"))["project"]
     required = declared(project["dependencies"])
     extras = project["optional-dependencies"]
-    optional = set.union(
-        *(declared(extras[name]) for name in ("plot", "report", "video", "export", "notebook"))
-    )
+    optional = set.union(*(declared(extras[name]) for name in ("plot", "report", "video", "export", "notebook")))
     found = imported()
     assert required <= found <= required | optional
 
@@ -66,6 +64,4 @@ def test_every_file_states_the_same_version() -> None:
 def test_hooks_run_tools_of_the_development_group() -> None:
     group = tomllib.loads(PROJECT.read_text("utf-8"))["dependency-groups"]["dev"]
     tools = {line.split()[1] for line in HOOKS.read_text("utf-8").splitlines() if "entry:" in line}
-    assert (
-        tools == {"ruff", "mypy", "codespell"} <= declared([each for each in group if isinstance(each, str)])
-    )
+    assert tools == {"ruff", "mypy", "codespell"} <= declared([each for each in group if isinstance(each, str)])

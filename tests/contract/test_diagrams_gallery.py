@@ -22,25 +22,53 @@ OF_FORCES = ("torque", "power", "energy", "speed", "reactions", "hodograph", "sh
 AT_REST = {"truss", "two_bars_equilibrium"}
 #: Nothing acts on them and no link has a mass.
 FORCELESS = {
-    "chebyshev_lambda", "crank_rocker", "fourbar_lecture", "pantograph", "peaucellier", "press_double_crank",
-    "slider_crank_offset", "theo_jansen_leg",
-}  # fmt: skip
-PART_OF_A_TURN = {
-    "change_point_fourbar", "geneva_wheel", "kite", "parallelogram", "peaucellier", "tangent_mechanism",
-}  # fmt: skip
+    "chebyshev_lambda",
+    "crank_rocker",
+    "fourbar_lecture",
+    "pantograph",
+    "peaucellier",
+    "press_double_crank",
+    "slider_crank_offset",
+    "theo_jansen_leg",
+}
+PART_OF_A_TURN = {"change_point_fourbar", "geneva_wheel", "kite", "parallelogram", "peaucellier", "tangent_mechanism"}
 #: Driven by a slide, by several drivers.
 NOT_ONE_CRANK = {
-    "double_slider", "dyad_prp", "dyad_rrr", "excavator", "gear_differential", "pantograph", "planetary_two_inputs",
+    "double_slider",
+    "dyad_prp",
+    "dyad_rrr",
+    "excavator",
+    "gear_differential",
+    "pantograph",
+    "planetary_two_inputs",
     "wedge",
-}  # fmt: skip
+}
 UNEVEN = {"stephenson_sixbar_triad"}
 #: Over a cycle their loads take no work: there is no speed that they would fall from.
 NO_WORK = {
-    "chebyshev_lambda", "class_four_group", "crank_rocker", "dyad_rpp", "dyad_rpr", "dyad_rrp", "fourbar_lecture",
-    "fourth_order_group", "geared_fivebar", "geared_fivebar_double", "geared_fivebar_third", "press_double_crank",
-    "scotch_yoke", "shaper_quick_return", "slider_crank_inline", "slider_crank_offset", "stephenson_sixbar",
-    "theo_jansen_leg", "toggle_press", "triad", "watt_sixbar", "whitworth",
-}  # fmt: skip
+    "chebyshev_lambda",
+    "class_four_group",
+    "crank_rocker",
+    "dyad_rpp",
+    "dyad_rpr",
+    "dyad_rrp",
+    "fourbar_lecture",
+    "fourth_order_group",
+    "geared_fivebar",
+    "geared_fivebar_double",
+    "geared_fivebar_third",
+    "press_double_crank",
+    "scotch_yoke",
+    "shaper_quick_return",
+    "slider_crank_inline",
+    "slider_crank_offset",
+    "stephenson_sixbar",
+    "theo_jansen_leg",
+    "toggle_press",
+    "triad",
+    "watt_sixbar",
+    "whitworth",
+}
 _RUNNING = {"running.not_whole_turns": PART_OF_A_TURN, "running.not_constant": UNEVEN}
 #: By kind and code the models to which a diagram makes no sense; all others are drawn.
 REFUSED: Mapping[str, Mapping[str, set[str]]] = {

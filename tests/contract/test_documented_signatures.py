@@ -63,10 +63,7 @@ def documented_arguments(doc: str) -> list[str]:
 
 
 def test_arguments_of_docstrings_exist() -> None:
-    told = {
-        whole: set(documented_arguments(inspect.getdoc(found) or ""))
-        for whole, (_, found) in CALLABLES.items()
-    }
+    told = {whole: set(documented_arguments(inspect.getdoc(found) or "")) for whole, (_, found) in CALLABLES.items()}
     for whole in every((whole for whole, names in told.items() if names), least=20):
         _, found = CALLABLES[whole]
         taken = signature(found)
@@ -119,8 +116,18 @@ def written_by() -> dict[str, Callable[..., Any]]:
     }
 
 
-WRITTEN = ("Diagram.save", "Drawing.save", "Animation.save", "LivingPage.save", "Report.save", "Document.save",
-           "Synthesis.write", "CamDesign.save_profile", "GearPair.save_dxf", "export")  # fmt: skip
+WRITTEN = (
+    "Diagram.save",
+    "Drawing.save",
+    "Animation.save",
+    "LivingPage.save",
+    "Report.save",
+    "Document.save",
+    "Synthesis.write",
+    "CamDesign.save_profile",
+    "GearPair.save_dxf",
+    "export",
+)
 
 
 @pytest.mark.parametrize("what", WRITTEN)
@@ -139,8 +146,11 @@ def test_a_file_that_is_there_is_replaced_only_with_force(what: str, tmp_path: P
 
 def test_everything_that_writes_has_the_rule() -> None:
     taken = {whole: signature(found) for whole, (called, found) in CALLABLES.items() if called in SAVES}
-    writing = {whole: each.parameters for whole, each in taken.items()
-               if each is not None and {"path", "folder", "target"} & set(each.parameters)}  # fmt: skip
+    writing = {
+        whole: each.parameters
+        for whole, each in taken.items()
+        if each is not None and {"path", "folder", "target"} & set(each.parameters)
+    }
     assert {whole.rpartition(".")[2] for whole in writing} == set(SAVES)
     for whole, parameters in writing.items():
         force = parameters.get("force")

@@ -58,9 +58,7 @@ def read_csv(content: bytes) -> Columns:
 def read_json(content: bytes) -> Columns:
     tables = json.loads(content)["tables"]
     return {
-        name: np.array(column["values"], dtype=float)
-        for table in tables.values()
-        for name, column in table.items()
+        name: np.array(column["values"], dtype=float) for table in tables.values() for name, column in table.items()
     }
 
 
@@ -70,9 +68,7 @@ def read_parquet(content: bytes) -> Columns:
     return {name: table[name].to_numpy() for name in table.column_names}
 
 
-TABLES: Mapping[str, Callable[[bytes], Columns]] = {
-    ".csv": read_csv, ".json": read_json, ".parquet": read_parquet,
-}  # fmt: skip
+TABLES: Mapping[str, Callable[[bytes], Columns]] = {".csv": read_csv, ".json": read_json, ".parquet": read_parquet}
 
 
 def holds_the_numbers(name: str, ending: str, folder: Path) -> None:
@@ -97,8 +93,7 @@ def holds_the_sheets(name: str, folder: Path) -> None:
     for heading, values in every(result(name).columns().items()):
         size = 1e-12 * float(np.abs(np.nan_to_num(values)).max(initial=0.0))
         alike = (
-            len(each) == len(values) and np.allclose(each, values, 1e-12, size, equal_nan=True)
-            for each in shown
+            len(each) == len(values) and np.allclose(each, values, 1e-12, size, equal_nan=True) for each in shown
         )
         assert any(alike), heading
 
@@ -171,10 +166,13 @@ def equations_hold(name: str, folder: Path) -> None:
 
 
 FUNCTIONS = {
-    "abs": abs, "max": max, "min": min, "sign": lambda x: math.copysign(1.0, x) if x else 0.0,
+    "abs": abs,
+    "max": max,
+    "min": min,
+    "sign": lambda x: math.copysign(1.0, x) if x else 0.0,
     **{name: getattr(math, name) for name in ("sin", "cos", "tan", "sqrt", "exp", "log", "floor")},
     **{name: getattr(math, name) for name in ("asin", "acos", "atan", "atan2")},
-}  # fmt: skip
+}
 
 
 def valued(formula: str, values: Mapping[str, float]) -> float:
@@ -197,9 +195,13 @@ def moves_alike(name: str, folder: Path) -> None:
 
 CHECKS: Mapping[str, Callable[[str, Path], None]] = {
     **{ending: lambda name, folder, ending=ending: holds_the_numbers(name, ending, folder) for ending in TABLES},
-    "xlsx": holds_the_sheets, "html": holds_the_page, "dxf": holds_the_pins, "mjcf": starts_closed,
-    "modelica": equations_hold, "modelica, moved": moves_alike,
-}  # fmt: skip
+    "xlsx": holds_the_sheets,
+    "html": holds_the_page,
+    "dxf": holds_the_pins,
+    "mjcf": starts_closed,
+    "modelica": equations_hold,
+    "modelica, moved": moves_alike,
+}
 #: Tables and pages: every model has some of them, in turn.
 IN_TURN = [*TABLES, "xlsx", "html"]
 

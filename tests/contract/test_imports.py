@@ -12,17 +12,7 @@ from tests.contract.sources import MODULES, imports, imports_of
 from tests.every import every
 
 STAGES = (
-    (
-        "errors",
-        "units",
-        "registry",
-        "filesystem",
-        "words",
-        "gallery",
-        "core",
-        "formula",
-        "pictures",
-    ),
+    ("errors", "units", "registry", "filesystem", "words", "gallery", "core", "formula", "pictures"),
     ("curves", "equations"),
     ("fields", "elements"),
     ("laws",),
@@ -45,9 +35,22 @@ STAGES = (
 STAGE = {package: number for number, packages in enumerate(STAGES) for package in packages}
 FRONT = STAGE["reports"]
 FRONT_END_PACKAGES = {
-    "matplotlib", "resvg_py", "PIL", "av", "ezdxf", "xlsxwriter", "pyarrow", "typst",
-    "fastapi", "starlette", "uvicorn", "typer", "rich", "argparse", "click",
-}  # fmt: skip
+    "matplotlib",
+    "resvg_py",
+    "PIL",
+    "av",
+    "ezdxf",
+    "xlsxwriter",
+    "pyarrow",
+    "typst",
+    "fastapi",
+    "starlette",
+    "uvicorn",
+    "typer",
+    "rich",
+    "argparse",
+    "click",
+}
 SLOW = ("scipy", "pandas", "matplotlib", "networkx", "sympy", "numba", "jax", "llvmlite")
 
 
@@ -60,17 +63,10 @@ def dotted(module: Path) -> str:
     return ".".join(("linkwright", *module.with_suffix("").parts)).removesuffix(".__init__")
 
 
-KNOWN_TO_FORMULAS = (
-    "linkwright.formula",
-    "linkwright.errors",
-    "linkwright.words",
-    "linkwright.core.arrays",
-)
+KNOWN_TO_FORMULAS = ("linkwright.formula", "linkwright.errors", "linkwright.words", "linkwright.core.arrays")
 FORMULA = [module for module in MODULES if package_of(module) == "formula"]
 ANALYSIS = [
-    module
-    for module in MODULES
-    if package_of(module) != "pictures" and STAGE.get(package_of(module), FRONT) < FRONT
+    module for module in MODULES if package_of(module) != "pictures" and STAGE.get(package_of(module), FRONT) < FRONT
 ]
 
 

@@ -19,9 +19,7 @@ def read(kind: str) -> lw.Mechanism:
 
 
 def test_every_kind_is_here() -> None:
-    known = {
-        shape["title"] for shape in lw.json_schema()["properties"]["joints"]["additionalProperties"]["oneOf"]
-    }
+    known = {shape["title"] for shape in lw.json_schema()["properties"]["joints"]["additionalProperties"]["oneOf"]}
     assert {kind.split(",", maxsplit=1)[0] for kind in WRITTEN} == known
 
 

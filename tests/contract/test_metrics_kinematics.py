@@ -18,12 +18,7 @@ def four_bar(turn: float = 0.0, mirror: float = 1.0, scale: float = 1.0) -> lw.M
     model.frame(O1=(0, 0), O2=(4 * scale * cos(turn), 4 * scale * sin(turn)))
     model.link("crank", ["O1", "A"], length=scale)
     model.link(
-        "coupler",
-        ["A", "B"],
-        length=3.5 * scale,
-        also={"P": (1.5 * scale, mirror * scale)},
-        mass=3,
-        inertia=0.2,
+        "coupler", ["A", "B"], length=3.5 * scale, also={"P": (1.5 * scale, mirror * scale)}, mass=3, inertia=0.2
     )
     model.link("rocker", ["O2", "B"], length=2.5 * scale, mass=2, inertia=0.1)
     model.drive("crank", about="O1", speed=10 * mirror, start=turn)
@@ -35,12 +30,7 @@ def four_bar(turn: float = 0.0, mirror: float = 1.0, scale: float = 1.0) -> lw.M
 def test_turning_and_mirroring_change_nothing(turn: float, mirror: float) -> None:
     first = metrics(lw.solve_forces(four_bar(), steps=120))
     other = metrics(lw.solve_forces(four_bar(turn, mirror), steps=120))
-    free = set(METRICS) - {
-        "limit_position",
-        "dead_point",
-        "instant_centre",
-        "peak_shaking_moment",
-    }
+    free = set(METRICS) - {"limit_position", "dead_point", "instant_centre", "peak_shaking_moment"}
     for name in every(sorted(free & set(first.names)), least=10):
         a, b = (sorted(abs(row.value) for row in table[name]) for table in (first, other))
         assert a == pytest.approx(b, rel=1e-7, abs=1e-9), name
@@ -93,9 +83,13 @@ def test_links_that_do_not_turn_against_each_other_have_their_centre_at_infinity
     assert all(row.at == pytest.approx(np.radians(10.0)) for row in rows)
     x, y = np.cos(np.radians(10.0)), np.sin(np.radians(10.0))
     places = {
-        "frame, crank": (0.0, 0.0), "frame, rocker": (2.0, 0.0), "crank, coupler": (x, y),
-        "coupler, rocker": (2.0 + x, y), "frame, coupler": None, "crank, rocker": None,
-    }  # fmt: skip
+        "frame, crank": (0.0, 0.0),
+        "frame, rocker": (2.0, 0.0),
+        "crank, coupler": (x, y),
+        "coupler, rocker": (2.0 + x, y),
+        "frame, coupler": None,
+        "crank, rocker": None,
+    }
     assert {row.subject for row in rows} == set(places)
     for row in rows:
         place = places[row.subject]
@@ -110,9 +104,7 @@ def test_links_that_do_not_turn_against_each_other_have_their_centre_at_infinity
 def test_centrodes_roll_on_each_other() -> None:
     """The pole runs as far on the moving centrode as on the fixed one."""
     motion = lw.solve_motion(four_bar(), at=np.linspace(0.2, 0.6, 4001))
-    lengths = [
-        np.hypot(*np.diff(centrode(motion, "coupler", on), axis=0).T).sum() for on in ("frame", "coupler")
-    ]
+    lengths = [np.hypot(*np.diff(centrode(motion, "coupler", on), axis=0).T).sum() for on in ("frame", "coupler")]
     assert lengths[0] == pytest.approx(lengths[1], rel=1e-6)
 
 
@@ -125,10 +117,7 @@ def test_jerk_is_the_derivative_of_the_acceleration(name: str) -> None:
     jerk = Analysis(motion).signal(f"{link}.angular_jerk")(motion)
     speed = abs(next(iter(motion.positions.coordinates.values()))[1][0])
     h = 2e-3 / speed
-    a = {
-        k: lw.solve_motion(mechanism, times=time + k * h).link(link).angular_acceleration
-        for k in (-2, -1, 1, 2)
-    }
+    a = {k: lw.solve_motion(mechanism, times=time + k * h).link(link).angular_acceleration for k in (-2, -1, 1, 2)}
     difference = (8 * (a[1] - a[-1]) - (a[2] - a[-2])) / (12 * h)
     np.testing.assert_allclose(jerk, difference, rtol=1e-6, atol=1e-8 * np.abs(jerk).max())
 
@@ -159,14 +148,7 @@ def test_bearing_value_of_a_pin() -> None:
     model.link("yoke", ["Y"], mass=4)
     model.joint("A", "revolute", pin_radius=0.01)
     model.joint(
-        "slot",
-        "prismatic",
-        guide="yoke",
-        through="Y",
-        direction=pi / 2,
-        block="die",
-        at="A",
-        block_angle=pi / 2,
+        "slot", "prismatic", guide="yoke", through="Y", direction=pi / 2, block="die", at="A", block_angle=pi / 2
     )
     model.joint("guide", "prismatic", guide="frame", through="O", direction=0, block="yoke", at="Y")
     model.drive("crank", about="O", speed=20)
@@ -183,14 +165,7 @@ def falling_ladder(steps: int) -> lw.Motion:
     model.link("head", ["B"], mass=1)
     model.joint("floor", "prismatic", guide="frame", through="O", direction=0, block="foot", at="A")
     model.joint(
-        "wall",
-        "prismatic",
-        guide="frame",
-        through="O",
-        direction=pi / 2,
-        block="head",
-        at="B",
-        block_angle=pi / 2,
+        "wall", "prismatic", guide="frame", through="O", direction=pi / 2, block="head", at="B", block_angle=pi / 2
     )
     model.assemble(B="forward")
     model.slide("floor", speed=0.1, start=0)
@@ -285,18 +260,14 @@ def test_a_driver_that_moves_to_and_fro() -> None:
     assert [row.value for row in table["dead_point"]] == pytest.approx([0.0], abs=1e-12)
     assert table["peak_input_torque"][0].dimension == "force"
     shown = [cell for line in table.text().splitlines() for cell in line.split()]
-    assert not [
-        cell for cell in every(shown) if "e-" in cell and cell.replace("e-", "").replace(".", "").isdigit()
-    ]
+    assert not [cell for cell in every(shown) if "e-" in cell and cell.replace("e-", "").replace(".", "").isdigit()]
 
 
 def test_what_is_but_rounding_is_zero_and_a_constant_number_stands_at_the_first_position() -> None:
     """The guide of a yoke, in line with the pin's horizontal force, carries nothing; a train turns evenly, so that
     nothing can be taken for its energy fluctuation."""
     yoke = metrics(lw.solve_forces(lw.load("gallery:scotch_yoke")))
-    assert yoke.value("peak_reaction", "guide") == 0.0 and yoke.value("peak_reaction", "O") == pytest.approx(
-        80
-    )
+    assert yoke.value("peak_reaction", "guide") == 0.0 and yoke.value("peak_reaction", "O") == pytest.approx(80)
     assert yoke.value("peak_shaking_moment") == 0.0
     train = lw.load("gallery:planetary_two_inputs")
     assert [row.at for row in metrics(lw.solve_forces(train))["peak_input_torque"]] == [0.0, 0.0]

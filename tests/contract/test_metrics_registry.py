@@ -29,12 +29,7 @@ def is_a_table(name: str) -> None:
     forces = lw.solve_forces(lw.solve_motion(lw.load(f"gallery:{name}"), steps=72, failures="mark"))
     table = metrics(forces)
     asked = [name for name, metric in METRICS.items() if metric.on_request and metric().applies(forces)]
-    rare = {
-        "cusp",
-        "dead_point",
-        "limit_position",
-        *(n for n, metric in METRICS.items() if metric.on_request),
-    }
+    rare = {"cusp", "dead_point", "limit_position", *(n for n, metric in METRICS.items() if metric.on_request)}
     assert set(table.names) | set(table.skipped) >= set(METRICS) - rare
     ranks = [METRICS[row.metric].rank for row in table]
     assert ranks == sorted(ranks)
@@ -70,13 +65,18 @@ FIRST = (
     {"peak_acceleration"},
     {"transmission_angle", "transmission_angle_of_stroke", "pressure_angle"},
     {
-        "peak_input_torque", "rms_input_torque", "peak_power", "mean_power", "efficiency", "energy_fluctuation",
+        "peak_input_torque",
+        "rms_input_torque",
+        "peak_power",
+        "mean_power",
+        "efficiency",
+        "energy_fluctuation",
         "flywheel",
     },
     {"velocity_ratio", "mechanical_advantage"},
     {"peak_reaction", "rms_reaction", "bearing_pv"},
     {"peak_shaking_force", "peak_shaking_moment"},
-)  # fmt: skip
+)
 
 
 def test_what_matters_first_stands_first() -> None:

@@ -23,11 +23,24 @@ def test_commands_take_one_name(tmp_path: Path, capsys: pytest.CaptureFixture[st
 @pytest.mark.parametrize(
     "name",
     [
-        "driver.effort", "input_torque", "jaw", "jaw.angle", "reaction O5 on jaw", "C.x", "C.velocity", "power",
-        "jaw.D.velocity.x", "shaking_force", "transmission_angle B", "velocity_ratio jaw", "closeness",
-        "cosine jaw.angle 2", "jaw.centre.velocity", "sine reaction O5 on jaw.x 1",
+        "driver.effort",
+        "input_torque",
+        "jaw",
+        "jaw.angle",
+        "reaction O5 on jaw",
+        "C.x",
+        "C.velocity",
+        "power",
+        "jaw.D.velocity.x",
+        "shaking_force",
+        "transmission_angle B",
+        "velocity_ratio jaw",
+        "closeness",
+        "cosine jaw.angle 2",
+        "jaw.centre.velocity",
+        "sine reaction O5 on jaw.x 1",
     ],
-)  # fmt: skip
+)
 def test_commands_take_every_name(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     commands_take(name, tmp_path, capsys)
 
@@ -39,17 +52,7 @@ def commands_take(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str])
         ["solve", crusher, "--steps", "4", "--columns", name],
         ["animate", crusher, "--frames", "4", "--curves", name, "--output", str(tmp_path / "a.svg")],
         ["plot", crusher, "--steps", "60", "--of", name, "--output", str(tmp_path / "p.svg")],
-        [
-            "sweep",
-            crusher,
-            *vary,
-            "--numbers",
-            f"{name} max",
-            "--steps",
-            "24",
-            "--folder",
-            str(tmp_path / "f"),
-        ],
+        ["sweep", crusher, *vary, "--numbers", f"{name} max", "--steps", "24", "--folder", str(tmp_path / "f")],
         ["study", crusher, *vary, "--metrics", f"{name} max", "--steps", "24"],
         ["compare", crusher, crusher, "--metrics", f"{name} max"],
     ]
@@ -100,9 +103,7 @@ SECTIONS: dict[str, Callable[[str], str]] = {
 @pytest.mark.parametrize(
     "name", ["driver.effort", "jaw", "jaw.angle", "O5 on jaw.magnitude", "reaction O5 on jaw", "C.x"]
 )
-def test_sections_take_one_name(
-    name: str, section: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_sections_take_one_name(name: str, section: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     text = lw.dump(store.machine("jaw_crusher_sixbar")).partition("\ncourse:")[0].partition("\noptimize:")[0]
     for asked, fine in ((name, True), ("no.such.name", False)):
         path = tmp_path / f"{fine}.yaml"

@@ -77,9 +77,7 @@ def test_numbers_of_one_peak_agree(machine: str, capsys: pytest.CaptureFixture[s
 
 
 @pytest.mark.parametrize("machine", MACHINES)
-def test_what_is_written_of_one_peak_agrees(
-    machine: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_is_written_of_one_peak_agrees(machine: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     joint, link, _ = MACHINES[machine]
     forces, (force, effort) = lw.solve_forces(store.machine(machine), steps=FEW), peaks(machine)
     output = f"reaction {joint} on {link}"
@@ -95,8 +93,11 @@ def test_what_is_written_of_one_peak_agrees(
         written[name] = capsys.readouterr().out.splitlines()
     with zipfile.ZipFile(book) as parts:
         last = max(name for name in parts.namelist() if re.fullmatch(r"xl/worksheets/sheet\d\.xml", name))
-        written["export"] = [f"{float(each):.6g}" for each in re.findall(r"<v>([^<]*)</v>", parts.read(last).decode())
-                             if re.fullmatch(r"-?[\d.]+(e-?\d+)?", each)]  # fmt: skip
+        written["export"] = [
+            f"{float(each):.6g}"
+            for each in re.findall(r"<v>([^<]*)</v>", parts.read(last).decode())
+            if re.fullmatch(r"-?[\d.]+(e-?\d+)?", each)
+        ]
     diagrams = {
         "reactions": plot(forces, "reactions", joint=joint, on=link),
         "sva": plot(forces, "sva", of=output),

@@ -27,9 +27,22 @@ NAMES = parts.gallery_names()
 KINDS = {name: re.findall(r"(?m)^kind: (\w+)", gallery.content(name).decode())[0] for name in NAMES}
 #: Sections whose keys are names that the user chose.
 NAMED = (
-    "supports", "loads", "variables", "mounts", "masses", "springs", "dampers", "samples", "tests", "regressions",
-    "capability", "forces", "couples", "planes", "clearances",
-)  # fmt: skip
+    "supports",
+    "loads",
+    "variables",
+    "mounts",
+    "masses",
+    "springs",
+    "dampers",
+    "samples",
+    "tests",
+    "regressions",
+    "capability",
+    "forces",
+    "couples",
+    "planes",
+    "clearances",
+)
 
 
 def numbers(data: Any) -> Iterator[float]:
@@ -93,8 +106,9 @@ def test_the_command_shows_it(name: str, capsys: pytest.CaptureFixture[str]) -> 
 
 #: One calculation of each kind; of a kind with several the one that is solved at once.
 AT_ONCE = {kind: name for name, kind in sorted(KINDS.items(), reverse=True)} | {
-    "cam": "cam_barrel", "program": "production_mix"
-}  # fmt: skip
+    "cam": "cam_barrel",
+    "program": "production_mix",
+}
 
 
 @pytest.mark.parametrize("kind", AT_ONCE)
@@ -113,9 +127,7 @@ def names_things(name: str) -> bool:
 def test_names_that_cannot_be_are_told(name: str, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     """Whatever they name: its noun is known in both languages."""
     model = yaml.safe_load(gallery.content(name))
-    for key in every(
-        key for key, value in model.items() if key in NAMED and isinstance(value, dict) and value
-    ):
+    for key in every(key for key, value in model.items() if key in NAMED and isinstance(value, dict) and value):
         first = next(iter(model[key]))
         wrong = {("1 of 2" if each == first else each): value for each, value in model[key].items()}
         file = tmp_path / "wrong.yaml"

@@ -17,9 +17,7 @@ TESTS = Path(__file__).resolve().parents[1]
 DOCS = TESTS.parent / "docs"
 #: `tests/unit` looks inside; the mutants' machinery changes the package itself.
 INSIDE = ("unit", "mutation")
-FILES = [
-    path for path in sorted(TESTS.rglob("*.py")) if path.relative_to(TESTS).parts[0] not in INSIDE
-]  # fmt: skip
+FILES = [path for path in sorted(TESTS.rglob("*.py")) if path.relative_to(TESTS).parts[0] not in INSIDE]
 
 
 @cache
@@ -33,9 +31,7 @@ def public() -> frozenset[tuple[str, str]]:
         names = getattr(module, "__all__", vars(module))
         offered |= {(module.__name__, name) for name in names if not name.startswith("__")}
     for page in (TESTS.parent / "README.md", *sorted(DOCS.rglob("*.md"))):
-        for block in re.findall(
-            r"^```(?:python|pycon|py)\b[^\n]*\n(.*?)^```", page.read_text("utf-8"), re.M | re.S
-        ):
+        for block in re.findall(r"^```(?:python|pycon|py)\b[^\n]*\n(.*?)^```", page.read_text("utf-8"), re.M | re.S):
             offered |= set(imported_by_lines(block))
     return frozenset(offered)
 
@@ -53,9 +49,7 @@ def taken(path: Path) -> Iterator[tuple[str, str, int]]:
         if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "linkwright":
             yield from ((str(node.module), alias.name, node.lineno) for alias in node.names)
         elif isinstance(node, ast.Import):
-            yield from (
-                (alias.name, "", node.lineno) for alias in node.names if alias.name.startswith("linkwright.")
-            )
+            yield from ((alias.name, "", node.lineno) for alias in node.names if alias.name.startswith("linkwright."))
 
 
 def is_public(module: str, name: str) -> bool:

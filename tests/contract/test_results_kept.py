@@ -109,9 +109,7 @@ def test_gradients_are_arrays_in_the_order_of_the_dimensions() -> None:
     for place, by in enumerate(found.by):
         size = machine().dimension(by)
         up, down = (
-            lw.sensitivity(
-                machine().with_dimensions({by: size * f}), of=["driver.effort rms"], by=[by], steps=36
-            )
+            lw.sensitivity(machine().with_dimensions({by: size * f}), of=["driver.effort rms"], by=[by], steps=36)
             for f in (1 + 1e-5, 1 - 1e-5)
         )
         difference = (up.value("driver.effort rms") - down.value("driver.effort rms")) / (2e-5 * size)

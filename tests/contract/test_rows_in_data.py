@@ -29,26 +29,17 @@ def test_modes_tests_and_phases_keep_their_owner() -> None:
     load = solved("conveyor_load").data()
     ends = [each["value"] for each in load["phases"].values()]
     assert len(ends) == 3 and all(a[1] == b[0] for a, b in pairwise(ends))
-    shares = [
-        load["transport"][key]["value"] for key in ("rest", "sliding forward", "sliding back", "flight")
-    ]
+    shares = [load["transport"][key]["value"] for key in ("rest", "sliding forward", "sliding back", "flight")]
     assert sum(shares) == pytest.approx(1.0)
     spread = solved("crank_rocker_tolerance").data()
-    share, *ends = (
-        spread["rocker.angle range"]["yield"]["value"],
-        *spread["rocker.angle range"]["range"]["value"],
-    )
+    share, *ends = (spread["rocker.angle range"]["yield"]["value"], *spread["rocker.angle range"]["range"]["value"])
     assert 0.98 < share < 1.0 and ends[0] < ends[1]
     parts_of_variance = spread["rocker.angle range: contributions"].values()
     assert sum(each["value"] for each in parts_of_variance) == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize(
-    "given", [["gallery:jaw_crusher_fourbar", "--ratio", "5", "--rim", "width=0.2"], None]
-)
-def test_rows_of_a_machine_are_rows_of_its_data(
-    given: list[str] | None, capsys: pytest.CaptureFixture[str]
-) -> None:
+@pytest.mark.parametrize("given", [["gallery:jaw_crusher_fourbar", "--ratio", "5", "--rim", "width=0.2"], None])
+def test_rows_of_a_machine_are_rows_of_its_data(given: list[str] | None, capsys: pytest.CaptureFixture[str]) -> None:
     curves = [
         "--torque",
         "200 + 100*sin(theta)",

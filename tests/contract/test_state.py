@@ -16,9 +16,7 @@ import linkwright as lw
 FORCES = [
     Row("forces", "press", "A on rod.x", "N", [1000.0, -2000.0]),
     Row("forces", "press", "A on rod.y", "N", [0.0, 3e-14]),
-    Row(
-        "forces", "press", "driver.effort", "N·m", {"every": 2, "size": 4, "values": [3.0, 4.0], "mean": 3.5}
-    ),
+    Row("forces", "press", "driver.effort", "N·m", {"every": 2, "size": 4, "values": [3.0, 4.0], "mean": 3.5}),
     Row("metrics", "press", "stroke", "m", 0.4),
     Row("metrics", "press", "jam", "", math.nan),
     Row("findings", "cuts: press", "149", "", ["error syntax 3:1 links"]),

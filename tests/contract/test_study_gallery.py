@@ -46,9 +46,7 @@ def test_a_sweep_is_every_design_for_itself(name: str) -> None:
     address, point = size_of(mechanism), last_point(mechanism)
     value = mechanism.dimension(address)
     values = value + (value or 1.0) * np.array([0.0, 1e-4, -1e-4])
-    found = sweep(
-        mechanism, {address: values}, outputs=[(f"{point}.x", "max"), (f"{point}.y", "rms")], steps=STEPS
-    )
+    found = sweep(mechanism, {address: values}, outputs=[(f"{point}.x", "max"), (f"{point}.y", "rms")], steps=STEPS)
     assert found.ok[0]
     for index in range(3):
         design = mechanism.with_dimensions({address: float(values[index])})

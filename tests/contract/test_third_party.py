@@ -165,10 +165,7 @@ def test_a_design_number_stands_in_the_table(file: Path, capsys: pytest.CaptureF
     expected = torque_by_hand(forces.motion.time).mean()
     assert lw.metrics(forces).value("mean_crank_torque") == pytest.approx(expected, rel=1e-10)
     for language in ("en", "zh"):
-        assert (
-            main(["metrics", str(file), "--steps", "40", "--names", "mean_crank_torque", "--lang", language])
-            == 0
-        )
+        assert main(["metrics", str(file), "--steps", "40", "--names", "mean_crank_torque", "--lang", language]) == 0
         assert f"{expected:.2f}"[:4] in capsys.readouterr().out
     assert main(["metrics", str(file), "--steps", "40", "--names", "mean_crank_torque", "--json"]) == 0
     (row,) = json.loads(capsys.readouterr().out)["metrics"]
@@ -185,10 +182,7 @@ def test_the_command_line_solves_and_draws_them(
     assert main(["draw", str(file), "--forces", "--output", str(target)]) == 0
     texts = {"".join(each.itertext()) for each in ET.parse(target).iter("{http://www.w3.org/2000/svg}text")}
     assert any("gust" in text for text in texts)
-    assert (
-        main(["plot", str(file), "--kind", "torque", "--steps", "24", "--output", str(tmp_path / "t.svg")])
-        == 0
-    )
+    assert main(["plot", str(file), "--kind", "torque", "--steps", "24", "--output", str(tmp_path / "t.svg")]) == 0
 
 
 def test_a_finding_about_them_says_where(file: Path) -> None:
@@ -251,9 +245,7 @@ def test_a_load_has_all_sizes_and_phases_by_one_line(size: str) -> None:
     """As the force of the library has them: in files, alone, in sweeps and in derivatives."""
     text = MODEL.replace("LAW", "speed: 3 rad/s").replace("cycle: {duration: 2 s}\n", "")
     own, known = (
-        lw.loads(
-            text.replace("kind: wind, on: piston, at: B, size: 50 N", f"{kind}, on: piston, at: B, {size}")
-        )
+        lw.loads(text.replace("kind: wind, on: piston, at: B, size: 50 N", f"{kind}, on: piston, at: B, {size}"))
         for kind in ("kind: gale", "kind: force, direction: 0 deg")
     )
     assert lw.loads(dump(own)).loads == own.loads
@@ -263,8 +255,6 @@ def test_a_load_has_all_sizes_and_phases_by_one_line(size: str) -> None:
     lengths = {"crank.length": np.array([0.19, 0.2, 0.21])}
     swept = [lw.sweep(each, lengths, outputs=["driver.effort max"], steps=36) for each in (own, known)]
     assert swept[0]["driver.effort max"].tolist() == swept[1]["driver.effort max"].tolist()
-    slopes = [
-        lw.sensitivity(each, of=["driver.effort rms"], by=["crank.length"], steps=36) for each in (own, known)
-    ]
+    slopes = [lw.sensitivity(each, of=["driver.effort rms"], by=["crank.length"], steps=36) for each in (own, known)]
     gradients = [each.gradient("driver.effort rms").tolist() for each in slopes]
     assert gradients[0] == gradients[1] and abs(gradients[0][0]) > 1.0

@@ -75,9 +75,7 @@ def test_a_living_page_is_written_in_any_language() -> None:
 
 
 def test_pseudo_texts_keep_their_values() -> None:
-    assert (
-        pseudo("links reach {reach:.2f}, {name!r}") == f"{OPEN}línks réách {{reach:.2f}}, {{name!r}}{CLOSE}"
-    )
+    assert pseudo("links reach {reach:.2f}, {name!r}") == f"{OPEN}línks réách {{reach:.2f}}, {{name!r}}{CLOSE}"
     with pseudo_locale():
         assert _("mass {value:.1f}", value=2.0).translate(PSEUDO) == f"{OPEN}máss 2.0{CLOSE}"
         assert _("{a}: {b}", a=_("mass"), b=("x", _("pin"))).translate(PSEUDO).count(OPEN) == 4

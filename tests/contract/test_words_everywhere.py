@@ -13,9 +13,15 @@ import linkwright as lw
 ROOT = Path(lw.__file__).parent
 #: Errors of the program itself, which no user can do anything about.
 OF_THE_PROGRAM = {
-    "ValueError", "TypeError", "RuntimeError", "NotImplementedError", "AssertionError", "KeyError", "AttributeError",
+    "ValueError",
+    "TypeError",
+    "RuntimeError",
+    "NotImplementedError",
+    "AssertionError",
+    "KeyError",
+    "AttributeError",
     "FrozenInstanceError",
-}  # fmt: skip
+}
 SENTENCE = re.compile(r"[A-Za-z]{2,} [a-z]{2,}")
 
 
@@ -89,9 +95,7 @@ def test_one_chinese_term_for_one_thing() -> None:
 def test_the_frame_has_its_chinese_word(model: str) -> None:
     """Wherever the program itself lists links: structure, worked solution, legends of pictures, report."""
     machine, forces = store.machine(model), store.forces(model, 12)
-    shown = re.sub(
-        "<style>.*?</style>|<[^>]*>", " ", lw.draw(forces.motion, forces=forces, language="zh").svg
-    )
+    shown = re.sub("<style>.*?</style>|<[^>]*>", " ", lw.draw(forces.motion, forces=forces, language="zh").svg)
     texts = [
         lw.structure(machine).text("zh"),
         lw.worked(forces, language="zh").text(),

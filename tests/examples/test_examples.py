@@ -102,9 +102,7 @@ def cam(names: Namespace) -> None:
     assert motion[1].min() == pytest.approx(-2 * 0.024 / radians(100), rel=1e-4)
     base = names["design"].cam.base_radius
     radii = np.hypot(*names["profile"].T)
-    assert radii.min() == pytest.approx(base, rel=1e-9) and radii.max() == pytest.approx(
-        base + 0.024, rel=1e-9
-    )
+    assert radii.min() == pytest.approx(base, rel=1e-9) and radii.max() == pytest.approx(base + 0.024, rel=1e-9)
     assert {each.dxftype() for each in ezdxf.readfile("cam.dxf").modelspace()}
 
 
@@ -121,9 +119,7 @@ def study(names: Namespace) -> None:
     frame, optimum = names["frame"], names["optimum"]
     assert len(frame) == 7 and frame["swing_angle [rad]"][3] == pytest.approx(1.6718867 - 1.6323814, abs=2e-7)
     better = optimum.mechanism()
-    swing = [
-        lw.metrics(lw.solve_motion(each)).value("swing_angle", "jaw") for each in (names["crusher"], better)
-    ]
+    swing = [lw.metrics(lw.solve_motion(each)).value("swing_angle", "jaw") for each in (names["crusher"], better)]
     assert swing[1] == pytest.approx(swing[0], rel=0.0101)
     rms = [lw.metrics(lw.solve_forces(each)).value("rms_input_torque") for each in (names["crusher"], better)]
     assert rms[0] == pytest.approx(names["sensitivity"].value("driver.effort rms"), rel=1e-9)
@@ -148,9 +144,7 @@ def test_every_example_is_checked() -> None:
 
 
 @pytest.mark.parametrize("name", CHECKS)
-def test_example_agrees_with_other_sources(
-    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_example_agrees_with_other_sources(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     path = EXAMPLES / name
     CHECKS[name](runpy.run_path(str(path)) if path.suffix == ".py" else run_notebook(path))

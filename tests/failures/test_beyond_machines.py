@@ -43,9 +43,7 @@ def changed(old: str, new: str) -> str:
         ("format: 1\n", "format: 1\nparameters: {l: 1e200 m}\n", "5:36", "links.crank.length"),
     ],
 )
-def test_a_size_that_no_machine_has_is_one_finding_at_its_place(
-    old: str, new: str, where: str, key: str
-) -> None:
+def test_a_size_that_no_machine_has_is_one_finding_at_its_place(old: str, new: str, where: str, key: str) -> None:
     text = changed(old, new)
     if "parameters" in new:
         text = text.replace("length: 1 m", "length: 2*l", 1)
@@ -75,9 +73,7 @@ def test_a_law_without_a_sensible_value_is_refused_with_its_time(law: str) -> No
     assert 0.0 <= float(str(caught.value.values["time"])) <= 1.0
 
 
-@pytest.mark.parametrize(
-    "magnitude", ["1 N*exp(1000*t/(1 s))", "1e300 N*cos(t/(1 s))", "1e300 N + 0 N*t/(1 s)"]
-)
+@pytest.mark.parametrize("magnitude", ["1 N*exp(1000*t/(1 s))", "1e300 N*cos(t/(1 s))", "1e300 N + 0 N*t/(1 s)"])
 def test_a_load_without_a_sensible_value_is_refused(magnitude: str) -> None:
     model = lw.loads(changed("magnitude: 1 N", f"magnitude: {magnitude}"))
     with refused("loads.formula_not_finite", name="f"):
@@ -136,17 +132,13 @@ def test_a_table_beside_a_constant_speed_is_taken_where_the_cycle_lies_in_it() -
     np.testing.assert_allclose(motion.link("crank_1").angle, motion.time, atol=1e-14)
     t = motion.time
     parabola = (2 * (t - 0.5) * (t - 1) * 0 - 4 * t * (t - 1) * 10 + 2 * t * (t - 0.5) * 15) * np.pi / 180
-    np.testing.assert_allclose(
-        motion.link("crank_2").angle, parabola, atol=1e-13
-    )  # through three points: a parabola
+    np.testing.assert_allclose(motion.link("crank_2").angle, parabola, atol=1e-13)  # through three points: a parabola
 
 
 @pytest.mark.parametrize("duration", ["1.5 s", "6 s"])
 def test_a_cycle_beyond_the_table_is_refused_with_both_ranges(duration: str) -> None:
     text = TWO_DRIVERS.replace("duration: 1 s", f"duration: {duration}")
-    with refused(
-        "loads.table_range", first=0.0, last=1.0, begin=0.0, end=float(duration.split(maxsplit=1)[0])
-    ):
+    with refused("loads.table_range", first=0.0, last=1.0, begin=0.0, end=float(duration.split(maxsplit=1)[0])):
         lw.solve_motion(lw.loads(text), steps=20)
 
 

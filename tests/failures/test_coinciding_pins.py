@@ -95,18 +95,13 @@ MODELS = {
         12,
         "",
     ),
-}  # fmt: skip
+}
 
 
 def model(points: str, links: tuple[str, ...], joints: tuple[str, ...]) -> str:
     frame = ", ".join(filter(None, ("O: [0 m, 0 m]", points)))
     crank = "crank: {points: [O, A], length: 0.1 m, mass: 1 kg}"
-    rows = [
-        "format: 1",
-        f"frame: {{points: {{{frame}}}}}",
-        "links:",
-        *(f"  {each}" for each in (crank, *links)),
-    ]
+    rows = ["format: 1", f"frame: {{points: {{{frame}}}}}", "links:", *(f"  {each}" for each in (crank, *links))]
     rows += ["joints:", *(f"  {each}" for each in joints)] if joints else []
     return "\n".join([*rows, "driver: {turn: crank, about: O, speed: 10 rpm}", "gravity: [0, -9.81 m/s²]\n"])
 
@@ -131,14 +126,17 @@ gravity: [0, -9.81 m/s²]
 
 TRIADS = {
     "both pins of the frame at one place": (
-        triad("210 mm, 90 mm", "190 mm, -10 mm", "235 mm, 5 mm", o3="130 mm, -210 mm"), 12, ""),
+        triad("210 mm, 90 mm", "190 mm, -10 mm", "235 mm, 5 mm", o3="130 mm, -210 mm"),
+        12,
+        "",
+    ),
     "two pins of the plate at one place": (triad("210 mm, 90 mm", "190 mm, -10 mm", "190 mm, -10 mm"), 12, ""),
     "three parallel bars": (
         triad("0 mm, 90 mm", "100 mm, 90 mm", "200 mm, 90 mm", o2="130 mm, 0 mm", o3="230 mm, 0 mm"),
         0,
         "singular lost",
     ),
-}  # fmt: skip
+}
 EVERY = {name: (model(*made), solved, others) for name, (*made, solved, others) in MODELS.items()} | TRIADS
 
 

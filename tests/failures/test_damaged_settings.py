@@ -63,20 +63,34 @@ GONE = object()
 @pytest.mark.parametrize(
     ("place", "value"),
     [
-        (("tolerance",), GONE), (("tolerance",), "ten"), (("tolerance",), float("nan")), (("tolerance",), -1),
-        (("questions",), GONE), (("questions",), []), (("questions",), "x"), (("questions", 0, "name"), []),
-        (("questions", 0, "unit"), 3), (("questions", 0, "unit"), GONE), (("variants",), []), (("variants",), {}),
-        (("variants", 0), 1), (("variants", 0, "number"), GONE), (("variants", 0, "answers"), GONE),
-        (("variants", 0, "answers", 0), GONE), (("variants", 0, "answers", 0), None),
-        (("variants", 0, "answers", 0), "a"), (("variants", 0, "answers", 0), 10**400),
-        (("variants", 0, "answers", 0), float("inf")), (("variants", 0, "mistakes"), None),
-        (("variants", 0, "mistakes", 0, "mistake"), "bogus"), (("variants", 0, "mistakes", 0, "mistake"), []),
-        (("variants", 0, "mistakes", 0, "where"), GONE), (("variants", 0, "mistakes", 0, "answers", 0), GONE),
+        (("tolerance",), GONE),
+        (("tolerance",), "ten"),
+        (("tolerance",), float("nan")),
+        (("tolerance",), -1),
+        (("questions",), GONE),
+        (("questions",), []),
+        (("questions",), "x"),
+        (("questions", 0, "name"), []),
+        (("questions", 0, "unit"), 3),
+        (("questions", 0, "unit"), GONE),
+        (("variants",), []),
+        (("variants",), {}),
+        (("variants", 0), 1),
+        (("variants", 0, "number"), GONE),
+        (("variants", 0, "answers"), GONE),
+        (("variants", 0, "answers", 0), GONE),
+        (("variants", 0, "answers", 0), None),
+        (("variants", 0, "answers", 0), "a"),
+        (("variants", 0, "answers", 0), 10**400),
+        (("variants", 0, "answers", 0), float("inf")),
+        (("variants", 0, "mistakes"), None),
+        (("variants", 0, "mistakes", 0, "mistake"), "bogus"),
+        (("variants", 0, "mistakes", 0, "mistake"), []),
+        (("variants", 0, "mistakes", 0, "where"), GONE),
+        (("variants", 0, "mistakes", 0, "answers", 0), GONE),
     ],
-)  # fmt: skip
-def test_a_damaged_key_says_where(
-    key: dict[str, Any], fails: Fails, place: tuple[Any, ...], value: Any
-) -> None:
+)
+def test_a_damaged_key_says_where(key: dict[str, Any], fails: Fails, place: tuple[Any, ...], value: Any) -> None:
     damaged = copy.deepcopy(key)
     inner: Any = damaged
     for step in place[:-1]:
@@ -157,12 +171,7 @@ def test_a_damaged_line_of_a_sheet_has_its_fault(
         ("course: {ask: rocker.angle}", "type", "course.ask", {}),
         ("course: {ask: [nope]}", "no-number", "course.ask.0", {"name": "nope"}),
         ("course: {at: 5 m}", "wrong-dimension", "course.at", {"text": "5 m"}),
-        (
-            "course: {vary: {crank.length: 1e400 %}}",
-            "bad-range",
-            "course.vary.crank.length",
-            {},
-        ),
+        ("course: {vary: {crank.length: 1e400 %}}", "bad-range", "course.vary.crank.length", {}),
         ("course: {tolerance: nan %}", "bad-tolerance", "course.tolerance", {}),
     ],
 )
@@ -232,8 +241,17 @@ def test_damaged_states_of_a_search(fails: Fails) -> None:
     with sqlite3.connect(state) as parts:
         ((key, content),) = parts.execute("select * from parts where content like '%generation%'")
     kept = dict(json.loads(content)["pairs"])
-    changes = [("x", None), ("x", []), ("x", -1), ("x", [[2.0]] * 12), ("generation", -1),
-               ("evaluations", -1), ("history", "x"), ("history", [None] * 99), ("draw", {"pairs": []})]  # fmt: skip
+    changes = [
+        ("x", None),
+        ("x", []),
+        ("x", -1),
+        ("x", [[2.0]] * 12),
+        ("generation", -1),
+        ("evaluations", -1),
+        ("history", "x"),
+        ("history", [None] * 99),
+        ("draw", {"pairs": []}),
+    ]
     texts = [json.dumps({"pairs": [*{**kept, name: value}.items()]}) for name, value in changes]
     for text in ["", "[" * 100_000, "null", *texts]:
         with sqlite3.connect(state) as parts:
@@ -273,9 +291,7 @@ def test_a_folder_without_a_name(fails: Fails) -> None:
     sweep = ["sweep", CRANK, "--vary", "coupler.length=3.2..3.8m:2", "--numbers", "rocker.angle range"]
     fails(2, *sweep, "--steps", "12", "--folder", "")
     with refused("study.no_folder"):
-        lw.sweep_parts(
-            store.machine("crank_rocker"), {"coupler.length": "3.2..3.8m:2"}, "", outputs=["B.x range"]
-        )
+        lw.sweep_parts(store.machine("crank_rocker"), {"coupler.length": "3.2..3.8m:2"}, "", outputs=["B.x range"])
 
 
 def test_one_number_is_not_sought_twice() -> None:
@@ -289,9 +305,7 @@ def test_one_number_is_not_sought_twice() -> None:
 @pytest.mark.parametrize("given", ["3.8..3.2m", ["3.8 m", "3.2 m"], [3.8, 3.2], {"whole": "4..3m"}])
 def test_bounds_that_fall(given: Any) -> None:
     with faulty("optimize.falling", "optimize.vary.coupler.length"):
-        lw.optimize(
-            store.machine("crank_rocker"), vary={"coupler.length": given}, minimize="rocker.angle range"
-        )
+        lw.optimize(store.machine("crank_rocker"), vary={"coupler.length": given}, minimize="rocker.angle range")
 
 
 def test_a_variable_without_effect_is_named_and_stays() -> None:

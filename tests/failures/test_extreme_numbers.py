@@ -14,9 +14,31 @@ from linkwright.cli import main
 
 FOLDER = Path(lw.__file__).parent / "gallery/parts"
 EXTREME = [
-    "--1", "+-1", "²", "½", "١", "1e400", "-1e400", "1e308", "1e100", "-1e100", "1e30", "1e12", "1e-9", "1e-30",
-    "1e-300", "0", "-1", "1.5", "9" * 30, "nan", "inf", "1_0", "0x10", "1e",
-]  # fmt: skip
+    "--1",
+    "+-1",
+    "²",
+    "½",
+    "١",
+    "1e400",
+    "-1e400",
+    "1e308",
+    "1e100",
+    "-1e100",
+    "1e30",
+    "1e12",
+    "1e-9",
+    "1e-30",
+    "1e-300",
+    "0",
+    "-1",
+    "1.5",
+    "9" * 30,
+    "nan",
+    "inf",
+    "1_0",
+    "0x10",
+    "1e",
+]
 #: Kinds that search or simulate.
 LONG = ("program", "cam", "follower", "tolerance", "vibration")
 NUMBER = re.compile(r"(?<![\w.])-?\d+\.?\d*(?:e[+-]?\d+)?(?![\w.])")
@@ -135,9 +157,7 @@ def test_whole_numbers_of_a_tolerance_study(key: str, given: str) -> None:
         ),
     ],
 )
-def test_what_no_machine_has(
-    name: str, old: str, new: str, key: str, code: str, values: dict[str, object]
-) -> None:
+def test_what_no_machine_has(name: str, old: str, new: str, key: str, code: str, values: dict[str, object]) -> None:
     text = (FOLDER / f"{name}.yaml").read_text("utf-8")
     assert old in text
     with faulty(code, key, **values):

@@ -30,9 +30,9 @@ def test_a_note_says_where_the_stretch_begins(steps: int) -> None:
 def test_a_law_that_goes_and_comes_back_between_two_positions_is_looked_through() -> None:
     """The crank swings from -40° over the folded position and back again within one step."""
     text = MODEL.read_text(encoding="utf-8")
-    swing = text.replace(
-        "speed: 1 rad/s, start: -40 deg", 'position: "-40 deg + 40 deg*sin(2*pi*t/(1 s))"'
-    ).replace("cycle: {from: -40 deg, to: 40 deg}", "cycle: {duration: 1 s}")
+    swing = text.replace("speed: 1 rad/s, start: -40 deg", 'position: "-40 deg + 40 deg*sin(2*pi*t/(1 s))"').replace(
+        "cycle: {from: -40 deg, to: 40 deg}", "cycle: {duration: 1 s}"
+    )
     motion = lw.solve_motion(lw.loads(swing), steps=2, failures="mark")
     assert motion.ok.tolist() == [True, False, False]
 
@@ -57,9 +57,7 @@ cycle: {from: -0.4 m, to: 0.37 m}
 def test_a_small_group_in_a_large_machine_is_looked_through(steps: int) -> None:
     """A way of 0.77 m is short beside a frame of 40 m; the pins stand nearer than 0.1 m from s = -0.1 m on."""
     text = INVERTED.replace("OFFSET", "0.1")
-    large = text.replace(
-        "frame: {points: {P: [0 m, 0 m]}}", "frame: {points: {P: [0 m, 0 m], F: [40 m, 0 m]}}"
-    )
+    large = text.replace("frame: {points: {P: [0 m, 0 m]}}", "frame: {points: {P: [0 m, 0 m], F: [40 m, 0 m]}}")
     motion = lw.solve_motion(lw.loads(large), steps=steps, failures="mark")
     assert motion.ok.tolist() == (motion.input < -0.1).tolist()
 

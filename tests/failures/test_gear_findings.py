@@ -243,11 +243,7 @@ CASES = {
     ),
     "module without teeth": (
         "  m: {kind: gear, links: [a, b], radii: [20 mm, 40 mm], module: 3 mm}",
-        (
-            "joints.m.module",
-            "choice",
-            {"message": "a module says nothing about wheels without numbers of teeth"},
-        ),
+        ("joints.m.module", "choice", {"message": "a module says nothing about wheels without numbers of teeth"}),
     ),
     "another carrier": (
         "  m: {kind: gear, links: [a, b], teeth: [20, 40], carrier: bar}",
@@ -276,8 +272,7 @@ CASES = {
         ),
     ),
     "rack of two sizes": (
-        GUIDE
-        + "  m: {kind: rack, pinion: a, rack: rack, through: T, teeth: 20, module: 2 mm, radius: 20 mm}",
+        GUIDE + "  m: {kind: rack, pinion: a, rack: rack, through: T, teeth: 20, module: 2 mm, radius: 20 mm}",
         ("joints.m.radius", "choice", {"message": "the size is set twice"}),
     ),
     "rack of half a tooth": (
@@ -289,10 +284,7 @@ CASES = {
         (
             "joints.m.centre",
             "range",
-            {
-                "message": "{centre!r} is no pin to whose link a guide of the rack {rack!r} leads",
-                "centre": "X",
-            },
+            {"message": "{centre!r} is no pin to whose link a guide of the rack {rack!r} leads", "centre": "X"},
         ),
     ),
     "belt of no size": (
@@ -319,21 +311,14 @@ CASES = {
     ),
     "one centre": (
         "  m: {kind: gear, links: [a, d], teeth: [20, 40]}",
-        (
-            "joints.m.links",
-            "range",
-            {"message": "the centres {centres} lie in one place", "centres": ("O", "P")},
-        ),
+        ("joints.m.links", "range", {"message": "the centres {centres} lie in one place", "centres": ("O", "P")}),
     ),
     "several carriers": (
         "  m: {kind: gear, links: [b, e], teeth: [20, 40]}",
         (
             "joints.m.links",
             "reference",
-            {
-                "message": "the centres of the wheels may be {names}",
-                "names": ("frame (Q, H)", "frame (Q, K)"),
-            },
+            {"message": "the centres of the wheels may be {names}", "names": ("frame (Q, H)", "frame (Q, K)")},
         ),
     ),
     "cam of itself": (
@@ -374,8 +359,7 @@ CASES = {
             "range",
             {
                 "message": (
-                    "the oscillating follower {follower!r} has no pin on a link on which the cam {cam!r} "
-                    "turns"
+                    "the oscillating follower {follower!r} has no pin on a link on which the cam {cam!r} turns"
                 ),
                 "follower": "rack",
             },
@@ -421,9 +405,7 @@ def test_finding(name: str) -> None:
 
 def test_wheels_that_block_each_other_are_named_with_their_loop() -> None:
     text = HEAD.split("  loose", maxsplit=1)[0] + "driver: {turn: a, about: O, speed: 1 rad/s}\njoints:\n"
-    text += "".join(
-        f"  {x}{y}: {{kind: gear, links: [{x}, {y}], ratio: -1}}\n" for x, y in ("ab", "bc", "ca")
-    )
+    text += "".join(f"  {x}{y}: {{kind: gear, links: [{x}, {y}], ratio: -1}}\n" for x, y in ("ab", "bc", "ca"))
     with refused("mobility.blocked", mobility=0, pairs=("'bc'", "'ab'", "'ca'"), carrier="frame", pair="ca"):
         lw.structure(lw.loads(text))
 
@@ -448,12 +430,7 @@ joints:
             [1, 0],
             {"mesh": "external", "wanted": "60 mm"},
         ),
-        (
-            "kind: gear, links: [a, b], teeth: [20, 40], module: 2 mm",
-            [0.06, 0.059],
-            [1, 0],
-            {"distance": "59 mm"},
-        ),
+        ("kind: gear, links: [a, b], teeth: [20, 40], module: 2 mm", [0.06, 0.059], [1, 0], {"distance": "59 mm"}),
         ("kind: gear, links: [a, b], teeth: [20, 40]", [0.06, 0.061], [1, 1], {}),
         (
             "kind: belt, links: [a, b], radii: [20 mm, 10 mm]",
@@ -480,9 +457,7 @@ def test_a_distance_that_no_longer_fits_is_noticed(
             continue
         with refused("motion.refused", lw.PositionError, joint="m", **values):
             lw.solve_motion(changed, steps=4)
-        assert {each.kind for each in lw.solve_motion(changed, steps=4, failures="mark").outcomes} == {
-            "misfit"
-        }
+        assert {each.kind for each in lw.solve_motion(changed, steps=4, failures="mark").outcomes} == {"misfit"}
 
 
 def test_no_derivative_by_a_distance_that_wheels_fix() -> None:
@@ -566,9 +541,7 @@ driver: {turn: cam, about: O, speed: 60 rpm}
 
 def test_a_link_too_many_behind_a_cam_is_named() -> None:
     with refused(
-        "mobility.excess",
-        mobility=0,
-        reason="the link {links} is redundant in this special geometry; remove it",
+        "mobility.excess", mobility=0, reason="the link {links} is redundant in this special geometry; remove it"
     ):
         lw.solve_motion(lw.loads(PARALLELOGRAM_MOVED_BY_A_CAM))
 
@@ -740,9 +713,7 @@ driver: {{turn: cam, about: O, speed: 300 rpm}}
         ("[motor, crank]", "[motor, cranc]", "joints.belt.links.1"),
     ],
 )
-def test_a_pulley_that_cannot_be_placed_is_told_beside_an_unlikely_inertia(
-    right: str, wrong: str, key: str
-) -> None:
+def test_a_pulley_that_cannot_be_placed_is_told_beside_an_unlikely_inertia(right: str, wrong: str, key: str) -> None:
     """How large the crank is cannot be known then; what is wrong of the belt is."""
     text = """
 format: 1

@@ -57,9 +57,7 @@ def test_positions_beyond_infinity_are_not_reached(body: str, steps: int) -> Non
 
 @pytest.mark.parametrize("body", [RPP, PRP], ids=["RPP", "PRP"])
 @pytest.mark.parametrize(("beyond", "reached"), [(1e-5, False), (-1e-5, True)])
-def test_infinity_is_noticed_between_two_positions_on_the_same_side(
-    body: str, beyond: float, reached: bool
-) -> None:
+def test_infinity_is_noticed_between_two_positions_on_the_same_side(body: str, beyond: float, reached: bool) -> None:
     """The arm swings to a place just before or just beyond the parallel position, between two positions."""
     law = f'position: "-0.5 rad + (0.5 + {beyond!r}) * sin(2*pi*t/(1 s))"'
     motion = lw.solve_motion(model(body, law, "duration: 1 s"), steps=5, failures="mark")
@@ -70,9 +68,7 @@ def test_infinity_is_noticed_between_two_positions_on_the_same_side(
 
 @pytest.mark.parametrize("body", [RPP, PRP], ids=["RPP", "PRP"])
 def test_guides_whose_crossing_stands_still_do_not_go_to_infinity(body: str) -> None:
-    motion = lw.solve_motion(
-        model(body, TURN, "from: -40 deg, to: 41 deg", height=0.0), steps=27, failures="mark"
-    )
+    motion = lw.solve_motion(model(body, TURN, "from: -40 deg, to: 41 deg", height=0.0), steps=27, failures="mark")
     assert motion.ok.all() and not motion.notes
     assert math.isclose(float(np.abs(motion.point("A").position).max()), 0.0, abs_tol=1e-12)
 

@@ -99,12 +99,7 @@ def forces(text: str, load: str, steps: int = 36) -> lw.Forces:
         ),
         (f"{{{FORCE}, magnitude: 5}}", "loads.push.magnitude", "missing-unit", {"right": "5 N", "text": "5"}),
         (f"{{{FORCE}, magnitude: 5 N·m}}", "loads.push.magnitude", "wrong-dimension", {"text": "5 N·m"}),
-        (
-            f'{{{FORCE}, magnitude: "5 N*sin(roker)"}}',
-            "loads.push.magnitude",
-            "unknown-name",
-            {"offer": "rocker"},
-        ),
+        (f'{{{FORCE}, magnitude: "5 N*sin(roker)"}}', "loads.push.magnitude", "unknown-name", {"offer": "rocker"}),
         (
             f'{{{FORCE}, magnitude: "5 N*(rocker"}}',
             "loads.push.magnitude",
@@ -220,9 +215,7 @@ def test_findings_of_pistons(load: str, key: str, code: str, values: dict[str, o
 
 def test_division_by_zero_at_a_position() -> None:
     text = "5 N*rad/(input - 90 deg)"
-    with refused(
-        "loads.formula_fails", name="push", message='"{text}" divides by zero', text=text, input="90°"
-    ):
+    with refused("loads.formula_fails", name="push", message='"{text}" divides by zero', text=text, input="90°"):
         forces(CRANK_ROCKER, f'{{{FORCE}, magnitude: "{text}"}}')
 
 
@@ -262,9 +255,7 @@ def test_divisors_deep_within_and_where_the_cycle_begins_again(magnitude: str, p
         forces(CRANK_ROCKER, f'{{{FORCE}, magnitude: "{magnitude}"}}')
 
 
-@pytest.mark.parametrize(
-    "magnitude", ["5 N*cylinder/(1 m)/(2 - 2)", "5 N*cylinder/(p*1 m)", "5 N/p*cylinder/(1 m)"]
-)
+@pytest.mark.parametrize("magnitude", ["5 N*cylinder/(1 m)/(2 - 2)", "5 N*cylinder/(p*1 m)", "5 N/p*cylinder/(1 m)"])
 def test_divisors_that_are_always_zero(magnitude: str) -> None:
     text = SLIDER.replace("frame:", "parameters: {p: 0}\nframe:")
     load = f'{{kind: force, on: piston, at: B, direction: 0 deg, magnitude: "{magnitude}"}}'
@@ -285,8 +276,7 @@ def test_positions_far_apart_are_no_neighbours() -> None:
 
 def test_a_sliding_input_is_named_in_metres() -> None:
     text = SLIDER.replace(
-        "driver: {turn: crank, about: O, speed: 10 rad/s}",
-        "driver: {slide: cylinder, speed: -1 m/s, start: 3.9 m}",
+        "driver: {turn: crank, about: O, speed: 10 rad/s}", "driver: {slide: cylinder, speed: -1 m/s, start: 3.9 m}"
     )
     text = text.replace("loads:", "cycle: {duration: 1 s}\ndrawing: {A: [0 m, 1 m], B: [3.9 m, 0 m]}\nloads:")
     load = '{kind: force, on: piston, at: B, direction: 0 deg, magnitude: "5 N*m/(cylinder - 3.2 m)"}'
@@ -309,9 +299,7 @@ def test_a_jump_is_no_division_by_zero() -> None:
 
 
 def test_a_root_of_a_negative_number() -> None:
-    with refused(
-        "loads.formula_fails", name="push", message='"{text}" has no finite real value', input="100°"
-    ):
+    with refused("loads.formula_fails", name="push", message='"{text}" has no finite real value', input="100°"):
         forces(CRANK_ROCKER, f'{{{FORCE}, magnitude: "5 N*sqrt(cos(input))"}}')
 
 
@@ -333,10 +321,7 @@ def test_a_table_that_does_not_cover_the_cycle() -> None:
             "over: time, x: [0 s, 1 s], y: [5 N, 5 N]",
             "a periodic table covers full turns of an angle, and this one does not",
         ),
-        (
-            "over: input, x: [0 deg, 90 deg, 360 deg], y: [0 N, 5 N, 1 N]",
-            "a periodic table must end where it begins",
-        ),
+        ("over: input, x: [0 deg, 90 deg, 360 deg], y: [0 N, 5 N, 1 N]", "a periodic table must end where it begins"),
     ],
 )
 def test_a_table_that_cannot_be_periodic(table: str, message: str) -> None:
@@ -399,9 +384,7 @@ loads:
 """
 
 
-@pytest.mark.parametrize(
-    "phase", ["of: ram.angle, from: min, to: max", "moving: ram.angle, direction: increasing"]
-)
+@pytest.mark.parametrize("phase", ["of: ram.angle, from: min, to: max", "moving: ram.angle, direction: increasing"])
 def test_phase_of_a_link_that_only_slides(phase: str) -> None:
     """A ram's angle never changes; what is meant is the displacement of its guide. While it moves is never. The ram
     alone means the displacement."""

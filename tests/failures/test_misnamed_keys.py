@@ -82,11 +82,7 @@ loads: {gust: {kind: pressure, joint: way, area: 1 m², pushes: forward, magnitu
     ],
 )
 def test_a_kind_by_habit_is_pointed_to_the_right_word_and_the_rest_is_checked(kind: str, habit: str) -> None:
-    text = (
-        SLIDE.replace(f"kind: {kind}", f"kind: {habit}")
-        .replace("1 m²", "1")
-        .replace("offset: 3 mm", "offset: 3")
-    )
+    text = SLIDE.replace(f"kind: {kind}", f"kind: {habit}").replace("1 m²", "1").replace("offset: 3 mm", "offset: 3")
     with pytest.raises(lw.ModelError) as refused:
         lw.loads(text)
     first, *others = sorted(refused.value.findings, key=lambda each: each.code, reverse=True)
@@ -153,8 +149,7 @@ def test_a_key_that_only_looks_a_little_alike_is_offered_and_not_read() -> None:
 
 
 @pytest.mark.parametrize(
-    ("right", "wrong"),
-    [("head: {points", "head: {poits"), ("floor: {kind", "floor: {kin"), ("{slide:", "{slides:")],
+    ("right", "wrong"), [("head: {points", "head: {poits"), ("floor: {kind", "floor: {kin"), ("{slide:", "{slides:")]
 )
 def test_names_that_others_refer_to_are_known_under_misnamed_keys(right: str, wrong: str) -> None:
     text = store.text("double_slider")

@@ -61,9 +61,7 @@ def test_a_section_within_another_one_is_one_finding(section: str) -> None:
     head, _, rest = MODEL.partition("\njoints:")
     indented = "\n".join(f"  {line}" if line else line for line in f"joints:{rest}".splitlines())
     told = findings(f"{head}\n{indented}\n")
-    assert [each.key for each in told] == [
-        f"links.{each}" for each in ("joints", "assembly", "driver", "loads")
-    ]
+    assert [each.key for each in told] == [f"links.{each}" for each in ("joints", "assembly", "driver", "loads")]
     said(
         told,
         "misplaced",
@@ -75,9 +73,7 @@ def test_a_section_within_another_one_is_one_finding(section: str) -> None:
 
 
 @pytest.mark.parametrize("indent", [None, "", "  ", "    "])
-@pytest.mark.parametrize(
-    ("section", "within"), [("links", "frame"), ("joints", "links"), ("loads", "drivers")]
-)
+@pytest.mark.parametrize(("section", "within"), [("links", "frame"), ("joints", "links"), ("loads", "drivers")])
 def test_the_line_of_a_section_that_is_missing_or_indented_is_one_finding(
     section: str, within: str, indent: str | None
 ) -> None:
@@ -104,17 +100,11 @@ def test_elements_in_each_other_s_sections_are_told_with_their_names() -> None:
     """Joints, loads and drivers tell by their kinds and keys what they are."""
     model = changed(
         ("  C: {kind: revolute, friction: 0.1, pin_radius: 5 mm}\n", ""),
-        (
-            "assembly",
-            "  push: {kind: force, on: rocker, at: C, magnitude: 3 kN, direction: 180 deg}\nassembly",
-        ),
+        ("assembly", "  push: {kind: force, on: rocker, at: C, magnitude: 3 kN, direction: 180 deg}\nassembly"),
         ("loads:\n  push", "loads:\n  C: {kind: revolute, friction: 0.1, pin_radius: 5 mm}\n  pull"),
     )
     told = findings(model)
-    assert [(each.key, each.code) for each in told] == [
-        ("joints.push", "misplaced"),
-        ("loads.C", "misplaced"),
-    ]
+    assert [(each.key, each.code) for each in told] == [("joints.push", "misplaced"), ("loads.C", "misplaced")]
     said(told, "misplaced", "joints.push", names=("push",), section="loads", within="joints")
 
 
@@ -138,12 +128,7 @@ def test_elements_may_have_names_of_sections() -> None:
 def test_a_list_of_links_is_one_finding(form: str) -> None:
     names = ("crank", "coupler", "rocker")
     (found,) = findings(changed(*((f"{name}: {{", form.format(name=name)) for name in names)))
-    said(
-        [found],
-        "type",
-        "links",
-        message='"{section}" is a list; expected a mapping with each entry under its name',
-    )
+    said([found], "type", "links", message='"{section}" is a list; expected a mapping with each entry under its name')
     assert "crank: {" in found.remedy
 
 

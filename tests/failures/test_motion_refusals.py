@@ -90,18 +90,7 @@ def test_a_truss_that_does_not_close_is_refused_at_its_only_position() -> None:
 
 @pytest.mark.parametrize(
     ("left", "right", "failed"),
-    [
-        (
-            [90, 180, 170],
-            [0.9, 1.3, 0.5],
-            {},
-        ),
-        (
-            [180, 90, 120],
-            [1.3, 0.9, 1.25],
-            {"failed": 2, "steps": 3},
-        ),
-    ],
+    [([90, 180, 170], [0.9, 1.3, 0.5], {}), ([180, 90, 120], [1.3, 0.9, 1.25], {"failed": 2, "steps": 3})],
 )
 def test_a_refusal_names_the_first_failing_position_by_all_its_drivers(
     left: list[float], right: list[float], failed: dict[str, object]
@@ -131,13 +120,9 @@ def test_a_dyad_that_is_out_of_reach_behind_a_triad_leaves_no_place_to_begin() -
     """Stretched at 140°, while the drawing and the start are at 160°."""
     x, y = 300 + 300 * cos(radians(65)), 200 + 300 * sin(radians(65))
     half = 0.5 * sqrt(140**2 + 300**2 - 2 * 140 * 300 * cos(radians(75)))
-    text = re.sub(
-        "driver:.*\\ncycle:.*", "driver: {turn: output, about: O3, speed: 1 rad/s, start: 160 deg}", TRIAD
-    )
+    text = re.sub("driver:.*\\ncycle:.*", "driver: {turn: output, about: O3, speed: 1 rad/s, start: 160 deg}", TRIAD)
     text = text.replace("O3: [300 mm, 200 mm]", f"O3: [300 mm, 200 mm], O5: [{x!r} mm, {y!r} mm]")
-    bars = (
-        f"  arm: {{points: [D, F], length: {half!r} mm}}\n  leg: {{points: [O5, F], length: {half!r} mm}}\n"
-    )
+    bars = f"  arm: {{points: [D, F], length: {half!r} mm}}\n  leg: {{points: [O5, F], length: {half!r} mm}}\n"
     text = text.replace("drawing:", bars + "assembly: {F: left}\ndrawing:")
     with refused("range.not_assembled", driver="driver", place="160°"):
         input_range(lw.loads(text))
@@ -207,11 +192,7 @@ driver: {turn: crank, about: O1, speed: 60 rpm}
             "motion.text_for_number",
             {"text": "30 deg", "right": "0.523599"},
         ),
-        (
-            lambda m: lw.solve_motion(m, times=["1 s"]),
-            "motion.text_for_number",
-            {"text": "1 s", "right": "1"},
-        ),
+        (lambda m: lw.solve_motion(m, times=["1 s"]), "motion.text_for_number", {"text": "1 s", "right": "1"}),
         (lambda m: lw.solve_motion(m, failures="ignore"), "motion.no_failures", {"value": "ignore"}),
         (
             lambda m: m.with_dimensions({"coupler.length": "60 mm"}),

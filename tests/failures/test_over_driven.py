@@ -66,9 +66,7 @@ def test_a_driven_structure_cannot_move() -> None:
         FOURBAR + BAR + ONE,
         mobility=0,
         count=1,
-        why=(
-            "{name!r} has mobility {mobility} by Grübler's formula, so it cannot be driven, but {drivers} is set"
-        ),
+        why=("{name!r} has mobility {mobility} by Grübler's formula, so it cannot be driven, but {drivers} is set"),
     )
     assert told == {"crank", "coupler", "rocker", "brace"}
 

@@ -40,11 +40,7 @@ def told(supports: dict, **given: object) -> list[lw.Finding]:
             {"hinges": (1.0,)},
             [("can_move", {"how": "fold at the hinge at {places}", "places": ("1000 mm",)})],
         ),
-        (
-            {"A": ("pinned", 2.5), "B": ("roller", 0.0)},
-            {},
-            [("outside", {"x": "2500 mm", "length": "2000 mm"})],
-        ),
+        ({"A": ("pinned", 2.5), "B": ("roller", 0.0)}, {}, [("outside", {"x": "2500 mm", "length": "2000 mm"})]),
         ({"A": ("spring", 0.0), "B": ("fixed", 1.0)}, {}, [("no_stiffness", {})]),
         ({"A": ("fixed", 0.0)}, {"loads": {"P": parts.BeamLoad(force=1.0)}}, [("load_form", {})]),
         (

@@ -55,12 +55,7 @@ def test_products_of_whole_numbers_that_do_not_fit() -> None:
 @pytest.mark.parametrize(
     ("text", "key", "code", "values"),
     [
-        (
-            "parameters: {r: 0}\nminimize: x\nsubject_to: {a: y <= 3/r}",
-            "subject_to.a",
-            "not-finite",
-            {"text": "3/r"},
-        ),
+        ("parameters: {r: 0}\nminimize: x\nsubject_to: {a: y <= 3/r}", "subject_to.a", "not-finite", {"text": "3/r"}),
         ("parameters: {r: 0}\nminimize: x^2/r", "minimize", "not-finite", {"text": "x^2/r"}),
         ("minimize: x\nmaximize: y", "minimize", "one_objective", {}),
         ("minimize: x + z", "minimize", "unknown-name", {"name": "z"}),

@@ -102,41 +102,66 @@ def system(body: str) -> str:
 @pytest.mark.parametrize(
     ("text", "code", "key", "values"),
     [
-        (system("  W: [0 N, -5 N]\n  S: {direction: 90 deg}\n  T: {direction: [0, -2]}\n"), "point_unknown", "forces",
-         {"count": 2, "equations": 1, "names": ("S", "T")}),
+        (
+            system("  W: [0 N, -5 N]\n  S: {direction: 90 deg}\n  T: {direction: [0, -2]}\n"),
+            "point_unknown",
+            "forces",
+            {"count": 2, "equations": 1, "names": ("S", "T")},
+        ),
         (system("  W: [1 N, -5 N]\n  S: {direction: [0, 1]}\n"), "point_open", "forces", {"names": ("S",)}),
         (system("  W: {force: [1 N, 2 N], at: [1 m, 0 m]}\n  S: {direction: [0, 1]}\n"), "one_point", "forces", {}),
-        (system("  W: [1 N, 2 N]\n  S: {direction: [0, 1]}\ncouples: {C: [0 N·m, 0 N·m, 1 N·m]}\n"), "one_point",
-         "couples", {}),
+        (
+            system("  W: [1 N, 2 N]\n  S: {direction: [0, 1]}\ncouples: {C: [0 N·m, 0 N·m, 1 N·m]}\n"),
+            "one_point",
+            "couples",
+            {},
+        ),
         (system("  W: {magnitude: 2 N, direction: [0, 0]}\n"), "no_direction", "forces.W.direction", {}),
         (system("  W: {magnitude: 2 N, from: [0 m, 0 m]}\n"), "line_form", "forces.W", {}),
         (system("  W: {magnitude: 2 N, from: [1 m, 0 m], to: [1 m, 0 m]}\n"), "no_direction", "forces.W.to", {}),
-        (system("  W: [1 N, 2 N]\ncomponents: {c: {of: V, direction: [1, 0]}}\n"), "no_force", "components.c.of",
-         {"name": "V", "known": ("W",)}),
+        (
+            system("  W: [1 N, 2 N]\ncomponents: {c: {of: V, direction: [1, 0]}}\n"),
+            "no_force",
+            "components.c.of",
+            {"name": "V", "known": ("W",)},
+        ),
         (system("  W: [1 N, 2 N]\ncomponents: {c: {of: W}}\n"), "line_form", "components.c", {}),
         (system("  W: [1 N, 2 N]\nangles: {c: [W]}\n"), "pair", "angles.c", {"count": 1}),
-        ("format: 1\nkind: rigid_body\nsupports: {A: {at: [0 m, 0 m], holds: [x, y, turn_z]}}\n"
-         "loads: {F: {direction: [1, 0]}}\n", "unknown_load", "loads.F", {}),
-        ("format: 1\nkind: rigid_body\nsupports: {A: {at: [0 m, 0 m], holds: [x, y, turn_z]}}\n"
-         "loads: {F: {force: [1 N, 0 N], couple: 2 N·m}}\n", "load_form", "loads.F", {}),
+        (
+            "format: 1\nkind: rigid_body\nsupports: {A: {at: [0 m, 0 m], holds: [x, y, turn_z]}}\n"
+            "loads: {F: {direction: [1, 0]}}\n",
+            "unknown_load",
+            "loads.F",
+            {},
+        ),
+        (
+            "format: 1\nkind: rigid_body\nsupports: {A: {at: [0 m, 0 m], holds: [x, y, turn_z]}}\n"
+            "loads: {F: {force: [1 N, 0 N], couple: 2 N·m}}\n",
+            "load_form",
+            "loads.F",
+            {},
+        ),
     ],
-)  # fmt: skip
-def test_points_lines_and_loads_that_cannot_be(
-    text: str, code: str, key: str, values: dict[str, object]
-) -> None:
+)
+def test_points_lines_and_loads_that_cannot_be(text: str, code: str, key: str, values: dict[str, object]) -> None:
     with faulty(code, key, **values):
         parts.loads(text)
 
 
 OLD_WORDS = [
     (system("  P: {size: 3 N, along: [3, 4]}\n"), {"forces.P.size": "magnitude", "forces.P.along": "direction"}),
-    ("format: 1\nkind: rigid_body\nsupports: {A: {at: [0 m, 0 m], holds: [x, y]}, "
-     "B: {at: [1 m, 0 m], along: [0, 1]}}\nforces: {F: [0 N, -2 N]}\ncouples: {C: [0 N·m, 0 N·m, 1 N·m]}\n",
-     {"supports.B.along": "direction", "forces": "loads", "couples": "loads"}),
-    ("format: 1\nkind: vibration\nmasses: {a: 2 kg·m²}\nsprings: {s: {between: [ground, a], stiffness: 2 N·m/rad}}\n",
-     {"masses": "inertias"}),
+    (
+        "format: 1\nkind: rigid_body\nsupports: {A: {at: [0 m, 0 m], holds: [x, y]}, "
+        "B: {at: [1 m, 0 m], along: [0, 1]}}\nforces: {F: [0 N, -2 N]}\ncouples: {C: [0 N·m, 0 N·m, 1 N·m]}\n",
+        {"supports.B.along": "direction", "forces": "loads", "couples": "loads"},
+    ),
+    (
+        "format: 1\nkind: vibration\nmasses: {a: 2 kg·m²}\n"
+        "springs: {s: {between: [ground, a], stiffness: 2 N·m/rad}}\n",
+        {"masses": "inertias"},
+    ),
     (lw.gallery.content("cam_oscillating").decode().replace("inertia: 0.05", "mass: 0.05"), {"mass": "inertia"}),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("text", "renamed"), OLD_WORDS)

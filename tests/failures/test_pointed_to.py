@@ -88,11 +88,7 @@ def test_a_text_for_a_number_is_told_with_the_number() -> None:
 
 def test_units_of_different_dimensions_make_no_range() -> None:
     machine = store.machine("crank_rocker")
-    for text, first, second in (
-        ("1 m..2 kg", "m", "kg"),
-        ("1 m, 2 kg", "m", "kg"),
-        ("1 deg..2 m", "deg", "m"),
-    ):
+    for text, first, second in (("1 m..2 kg", "m", "kg"), ("1 m, 2 kg", "m", "kg"), ("1 deg..2 m", "deg", "m")):
         with refused("study.units_differ", address="crank.length", text=text, first=first, second=second):
             lw.study(machine, {"crank.length": text})
 
@@ -126,9 +122,7 @@ SECTIONS = {
 
 
 @pytest.mark.parametrize(("section", "key"), SECTIONS.items(), ids=list(SECTIONS))
-def test_what_a_section_cannot_be_is_told_when_the_file_is_checked(
-    section: str, key: str, tmp_path: Path
-) -> None:
+def test_what_a_section_cannot_be_is_told_when_the_file_is_checked(section: str, key: str, tmp_path: Path) -> None:
     """At its line, and without a list or a mapping as Python writes them."""
     path = tmp_path / "m.yaml"
     path.write_text(f"{FOUR_BAR}{section}\n", encoding="utf-8")
@@ -144,12 +138,5 @@ def test_all_that_is_wrong_with_the_sections_is_told_at_once(tmp_path: Path) -> 
     text = "report: {position: 60 furlong, positions: 1, title: [a]}\ncourse: {at: 5 m, tolerance: nan, foo: 1}\n"
     path.write_text(FOUR_BAR + text, encoding="utf-8")
     code, found = checked(path)
-    keys = {
-        "report.position",
-        "report.positions",
-        "report.title",
-        "course.at",
-        "course.tolerance",
-        "course.foo",
-    }
+    keys = {"report.position", "report.positions", "report.title", "course.at", "course.tolerance", "course.foo"}
     assert code == 1 and keys <= {each.key for each in found}

@@ -41,11 +41,7 @@ def measured(metrics: list[str], **options: Any) -> Any:
         ("input_torque now", "study.no_such_output", {"offer": "input_torque", "name": "input_torque now"}),
         ("power of crank", "study.no_such_output", {"offer": "power", "name": "power of crank"}),
         ("shaking_force O1", "study.no_such_output", {"offer": "shaking_force", "name": "shaking_force O1"}),
-        (
-            "shaking_moment O1",
-            "study.no_such_output",
-            {"offer": "shaking_moment", "name": "shaking_moment O1"},
-        ),
+        ("shaking_moment O1", "study.no_such_output", {"offer": "shaking_moment", "name": "shaking_moment O1"}),
         ("load crushign", "study.no_such_output", {"name": "load crushign"}),
         ("load", "study.no_such_output", {"name": "load"}),
         ("transmission_angle", "study.no_such_output", {"name": "transmission_angle"}),
@@ -84,18 +80,10 @@ def test_components_of_forces_in_a_sweep_are_those_of_a_solution() -> None:
 @pytest.mark.parametrize(
     ("ask", "code", "values"),
     [
-        (
-            lambda: forces().reaction("O5", on="jaw", axes="jwa"),
-            "names.no_such",
-            {"offer": "jaw", "name": "jwa"},
-        ),
+        (lambda: forces().reaction("O5", on="jaw", axes="jwa"), "names.no_such", {"offer": "jaw", "name": "jwa"}),
         (lambda: forces().reaction("O9"), "names.no_such", {"noun": "joint", "name": "O9"}),
         (lambda: forces().reaction("B"), "forces.say_link", {"joint": "B", "first": "pitman"}),
-        (
-            lambda: forces().reaction("O5", on="crank"),
-            "forces.not_touching",
-            {"joint": "O5", "link": "crank"},
-        ),
+        (lambda: forces().reaction("O5", on="crank"), "forces.not_touching", {"joint": "O5", "link": "crank"}),
         (
             lambda: forces().driver_effort("motor"),
             "names.no_such",
@@ -121,19 +109,11 @@ def test_components_of_forces_in_a_sweep_are_those_of_a_solution() -> None:
         (lambda: lw.solve_motion(six(), at=[np.nan]), "motion.bad_input", {"name": "driver"}),
         (lambda: lw.solve_motion(six(), times=[0.0, np.inf]), "motion.bad_time", {}),
         (lambda: lw.solve_motion(six(), steps=0), "given_instead.no_whole_from", {"value": "0"}),
-        (
-            lambda: measured(["peak_reaction"], sampling="lattice"),
-            "study.no_sampling",
-            {"sampling": "lattice"},
-        ),
+        (lambda: measured(["peak_reaction"], sampling="lattice"), "study.no_sampling", {"sampling": "lattice"}),
         (lambda: lw.compare([six(), six()], metrics=[]), "study.no_metric_named", {}),
         (lambda: measured(["travel"])["travle"], "study.not_in_study", {"offer": "travel", "name": "travle"}),
         (lambda: measured(["travel"]).best("travel"), "study.no_best", {"metric": "travel"}),
-        (
-            lambda: measured(["peak_reaction O9"]),
-            "study.no_value_for",
-            {"name": "peak_reaction", "subject": "O9"},
-        ),
+        (lambda: measured(["peak_reaction O9"]), "study.no_value_for", {"name": "peak_reaction", "subject": "O9"}),
         (lambda: lw.sweep(six(), {}, outputs=["jaw.angle max"]), "study.nothing_varied", {}),
         (
             lambda: lw.sweep(six(), {"crank.length": []}, outputs=["jaw.angle max"]),

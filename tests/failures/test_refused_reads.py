@@ -30,11 +30,7 @@ def model(name: str = "crank_rocker") -> lw.Mechanism:
     ("asked", "code", "values"),
     [
         (lambda: truss().motion.input, "motion.no_input", {"name": "Triangular truss on a pin and a roller"}),
-        (
-            lambda: truss().input_torque,
-            "forces.no_driver",
-            {"name": "Triangular truss on a pin and a roller"},
-        ),
+        (lambda: truss().input_torque, "forces.no_driver", {"name": "Triangular truss on a pin and a roller"}),
         (lambda: rocker().motion.joint("Bx"), "motion.no_coordinate", {"offer": "B", "name": "Bx"}),
         (
             lambda: rocker().motion.link("rockre"),
@@ -71,11 +67,7 @@ def model(name: str = "crank_rocker") -> lw.Mechanism:
             "forces.not_touching",
             {"joint": "B", "link": "crank", "links": ("coupler", "rocker")},
         ),
-        (
-            lambda: rocker().couple("Bb", on="crank"),
-            "names.no_such",
-            {"offer": "B", "noun": "joint", "name": "Bb"},
-        ),
+        (lambda: rocker().couple("Bb", on="crank"), "names.no_such", {"offer": "B", "noun": "joint", "name": "Bb"}),
         (
             lambda: rocker().reaction("B", on="rocker", axes="rockr"),
             "names.no_such",
@@ -86,11 +78,7 @@ def model(name: str = "crank_rocker") -> lw.Mechanism:
         (lambda: balance(model(), radius=0.1, share=-0.1), "forces.share", {"share": -0.1}),
         (lambda: balance(model(), radius=0.0), "forces.weight_radius", {"link": "crank", "distance": 0.0}),
         (lambda: balance(model(), radius={"crank": 0.1}), "forces.weight_no_radius", {"link": "rocker"}),
-        (
-            lambda: balance(model("triad"), radius=0.1),
-            "forces.not_balanced",
-            {"name": "Triad (class III group)"},
-        ),
+        (lambda: balance(model("triad"), radius=0.1), "forces.not_balanced", {"name": "Triad (class III group)"}),
         (
             lambda: lw.solve_motion(model(), steps=0),
             "given_instead.no_whole_from",

@@ -37,11 +37,7 @@ OF_YAML = [
         "12:23",
         "driver.about",
         "syntax",
-        {
-            "message": 'the key "{key_}" and its value stand together as one key',
-            "key_": "about",
-            "rest": "O1",
-        },
+        {"message": 'the key "{key_}" and its value stand together as one key', "key_": "about", "rest": "O1"},
     ),
     (
         "points: [O1, A]",
@@ -79,22 +75,8 @@ OF_YAML = [
         "syntax",
         {"message": "a mapping in braces is not closed or a comma is missing", "sign": "{"},
     ),
-    (
-        "length: 1 m",
-        'length: "1 m',
-        "8:13",
-        "",
-        "syntax",
-        {"message": "a quoted text is not closed", "sign": '"'},
-    ),
-    (
-        "name: Crank",
-        "name: 'Crank",
-        "2:7",
-        "",
-        "syntax",
-        {"message": "a quoted text is not closed", "sign": "'"},
-    ),
+    ("length: 1 m", 'length: "1 m', "8:13", "", "syntax", {"message": "a quoted text is not closed", "sign": '"'}),
+    ("name: Crank", "name: 'Crank", "2:7", "", "syntax", {"message": "a quoted text is not closed", "sign": "'"}),
     (
         "    length: 1 m",
         "   length: 1 m",
@@ -102,9 +84,7 @@ OF_YAML = [
         "",
         "syntax",
         {
-            "message": (
-                "the indentation does not fit the lines above, or a bracket is closed that was not opened"
-            ),
+            "message": ("the indentation does not fit the lines above, or a bracket is closed that was not opened"),
             "line": 6,
             "sign": "l",
         },
@@ -118,25 +98,14 @@ OF_YAML = [
         {"message": '"{key_}" is at the level of "{name}", not in it', "name": "crank"},
     ),
     ("  rocker:", "  coupler:", "10:3", "links.coupler", "duplicate-key", {"line": 9}),
-    (
-        "length: 3 m}",
-        "length: 3 m, length: 4 m}",
-        "10:42",
-        "links.rocker.length",
-        "duplicate-key",
-        {"line": 10},
-    ),
+    ("length: 3 m}", "length: 3 m, length: 4 m}", "10:42", "links.rocker.length", "duplicate-key", {"line": 10}),
     (
         "    length: 1 m",
         "    length：1 m",
         "8:11",
         "",
         "syntax",
-        {
-            "message": 'the full-width character "{wide}" is no punctuation of YAML',
-            "half": ": ",
-            "wide": "：",
-        },
+        {"message": 'the full-width character "{wide}" is no punctuation of YAML', "half": ": ", "wide": "："},
     ),
     (
         "[O1, A]",
@@ -171,14 +140,7 @@ OF_YAML = [
         "syntax",
         {"message": 'the character "{sign}" cannot begin a value', "sign": "%"},
     ),
-    (
-        "format: 1",
-        "%format: 1",
-        "1:1",
-        "",
-        "syntax",
-        {"message": 'a line cannot begin with "{sign}"', "sign": "%"},
-    ),
+    ("format: 1", "%format: 1", "1:1", "", "syntax", {"message": 'a line cannot begin with "{sign}"', "sign": "%"}),
     (
         "    length: 1 m",
         "    @length: 1 m",
@@ -211,14 +173,7 @@ OF_YAML = [
         "syntax",
         {"message": "an item of a list cannot begin in the middle of a line", "sign": "-"},
     ),
-    (
-        "  crank:",
-        "  - crank:",
-        "9:3",
-        "",
-        "syntax",
-        {"message": "an entry of a list has no dash", "line": 6},
-    ),
+    ("  crank:", "  - crank:", "9:3", "", "syntax", {"message": "an entry of a list has no dash", "line": 6}),
     (
         "length: 1 m",
         "length: “1 m”",
@@ -243,14 +198,7 @@ OF_YAML = [
         "syntax",
         {"message": 'an equals sign follows the key "{key_}"', "key_": "length", "rest": "1 m"},
     ),
-    (
-        "    length: 1 m",
-        "    length 1 m",
-        "8:5",
-        "",
-        "syntax",
-        {"message": "a key without a colon", "sign": "l"},
-    ),
+    ("    length: 1 m", "    length 1 m", "8:5", "", "syntax", {"message": "a key without a colon", "sign": "l"}),
     (
         "    length: 1 m",
         "    // long\n    length: 1 m",
@@ -338,10 +286,7 @@ def test_values_that_stand_beside_their_element_are_read_in_it() -> None:
         ),
         (
             "O1: {kind: revolute, links: [frame, rocker]}",
-            {
-                "remedy": 'remove it, and name a point of {links} "{pin}": points: [{pin}, …]',
-                "links": "rocker",
-            },
+            {"remedy": 'remove it, and name a point of {links} "{pin}": points: [{pin}, …]', "links": "rocker"},
         ),
     ],
 )
@@ -364,10 +309,7 @@ def test_a_pin_is_said_to_join_the_links_that_have_its_point(table: str, values:
         ("turn: crank, at: O1, ", {"key_": "at", "offer": "about"}),
         ("joint: O1, ", {"remedy": "write turn: {link} and about: {pin}", "link": "crank", "pin": "O1"}),
         ("joint: O, ", {"remedy": "add turn: LINK and about: PIN, or slide: JOINT"}),
-        (
-            "link: crank, joint: O1, ",
-            {"remedy": "write turn: {link} and about: {pin}", "link": "crank", "pin": "O1"},
-        ),
+        ("link: crank, joint: O1, ", {"remedy": "write turn: {link} and about: {pin}", "link": "crank", "pin": "O1"}),
     ],
 )
 def test_a_driver_in_other_words_is_one_finding(driver: str, values: dict[str, object]) -> None:

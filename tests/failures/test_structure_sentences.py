@@ -41,13 +41,7 @@ def test_two_drivers_on_one_freedom_are_refused() -> None:
 def test_the_same_joint_driven_twice_is_refused() -> None:
     drivers = f"drivers:\n  {ONE}\n  again: {{turn: crank, about: O1, speed: 2 rad/s}}"
     found = findings(FOUR_BAR.replace("DRIVERS", drivers).replace("ASSEMBLY", ""))
-    said(
-        found,
-        "duplicate",
-        "drivers.again",
-        message='the driver "{name}" drives the same coordinate',
-        name="first",
-    )
+    said(found, "duplicate", "drivers.again", message='the driver "{name}" drives the same coordinate', name="first")
 
 
 def test_only_the_links_that_are_over_driven_are_named() -> None:
@@ -100,9 +94,7 @@ def test_wrong_words_of_assembly(assembly: str, code: str, values: dict[str, obj
 
 def test_both_wrong_words_are_found_at_once() -> None:
     with pytest.raises(lw.LinkwrightError) as caught:
-        lw.solve_motion(
-            four_bar(f"driver: {ONE.split(': ', 1)[1]}", "assembly: {B: forward, O1: left}"), steps=4
-        )
+        lw.solve_motion(four_bar(f"driver: {ONE.split(': ', 1)[1]}", "assembly: {B: forward, O1: left}"), steps=4)
     both = [caught.value.values[each] for each in ("first", "second")]
     noted(both, "motion.no_mode", joint="B", word="forward")
     noted(both, "motion.not_inner", joint="O1")
@@ -113,8 +105,7 @@ def test_signatures_of_welds_and_drivers() -> None:
     model = store.machine("crank_rocker")
     assert [g.signature for g in lw.structure(model).groups] == ["R", "RRR"]
     text = FOUR_BAR.replace(
-        "ASSEMBLY",
-        "joints: {W: {kind: weld, links: [crank, plate], at: W, angle: 90 deg}}\nassembly: {B: left}",
+        "ASSEMBLY", "joints: {W: {kind: weld, links: [crank, plate], at: W, angle: 90 deg}}\nassembly: {B: left}"
     ).replace("length: 1 m}", "length: 1 m, also: {W: [0.5 m, 0.1 m]}}")
     text = text.replace("  coupler:", "  plate: {points: [W, V], length: 0.2 m}\n  coupler:")
     found = lw.structure(lw.loads(text.replace("DRIVERS", f"driver: {ONE.split(': ', 1)[1]}")))

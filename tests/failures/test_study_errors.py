@@ -32,22 +32,10 @@ def machine() -> lw.Mechanism:
             {"offer": "coupler.length", "address": "coupler.lenght"},
         ),
         ({"coupler.length": "2..3"}, "study.wrong_unit", {"need": "a length", "example": "m"}),
-        (
-            {"coupler.length": "2..3 kg"},
-            "study.wrong_unit",
-            {"need": "a length", "example": "m", "unit": "kg"},
-        ),
+        ({"coupler.length": "2..3 kg"}, "study.wrong_unit", {"need": "a length", "example": "m", "unit": "kg"}),
         ({"coupler.length": "2..x m"}, "study.no_quantity", {"part": "x m"}),
-        (
-            {"coupler.length": "2..3 m:0"},
-            "study.no_count",
-            {"address": "coupler.length", "value": "2..3 m:0"},
-        ),
-        (
-            {"coupler.length": "2..3 m:many"},
-            "study.no_count",
-            {"address": "coupler.length", "value": "2..3 m:many"},
-        ),
+        ({"coupler.length": "2..3 m:0"}, "study.no_count", {"address": "coupler.length", "value": "2..3 m:0"}),
+        ({"coupler.length": "2..3 m:many"}, "study.no_count", {"address": "coupler.length", "value": "2..3 m:many"}),
         ({"coupler.length": "2..3 mn"}, "unknown-unit", {"text": "mn"}),
         ({"coupler.length": "-2..3 m:3"}, "model.set_outside", {"address": "coupler.length"}),
         ({"coupler.length": [1.0, float("nan")]}, "study.bad_value", {"address": "coupler.length"}),
@@ -102,14 +90,7 @@ def test_numbers_of_joints_loads_and_cycles_need_their_units(
     told = "study.has_unit" if own else "study.has_no_unit"
     write = "study.with_unit" if unit else "study.without_unit"
     with refused(
-        "study.wrong_unit",
-        address=address,
-        text=given,
-        need=kind,
-        mismatch=told,
-        write=write,
-        example=unit,
-        **own,
+        "study.wrong_unit", address=address, text=given, need=kind, mismatch=told, write=write, example=unit, **own
     ):
         study(store.machine(model), {address: given}, metrics=["travel"])
 
@@ -258,11 +239,7 @@ def test_metrics_that_do_not_exist_or_apply(metric: str, code: str, values: dict
 
 def test_a_subject_that_a_metric_does_not_have() -> None:
     with refused("study.no_value_for", name="peak_reaction", subject="Q") as caught:
-        study(
-            store.machine("jaw_crusher_sixbar"),
-            {"pitman.length": "1.2..1.3 m:2"},
-            metrics=["peak_reaction Q"],
-        )
+        study(store.machine("jaw_crusher_sixbar"), {"pitman.length": "1.2..1.3 m:2"}, metrics=["peak_reaction Q"])
     assert "O5" in caught.value.values["names"]
 
 
@@ -333,9 +310,7 @@ def test_alternatives_that_share_no_output() -> None:
         ({"metrics": ["flywheel"], "fluctuation": 0.0}, "running.bad_coefficient", {"fluctuation": 0.0}),
     ],
 )
-def test_comparisons_that_cannot_be_made(
-    options: dict[str, Any], code: str, values: dict[str, object]
-) -> None:
+def test_comparisons_that_cannot_be_made(options: dict[str, Any], code: str, values: dict[str, object]) -> None:
     with refused(code, **values):
         compare([SIX, FOUR], **options)
 
@@ -348,9 +323,7 @@ def test_one_machine_is_no_comparison() -> None:
 
 
 def test_a_machine_that_does_no_work_needs_no_flywheel() -> None:
-    found = compare(
-        ["gallery:slider_crank_inline", "gallery:slider_crank_offset"], output=["piston", "slider"]
-    )
+    found = compare(["gallery:slider_crank_inline", "gallery:slider_crank_offset"], output=["piston", "slider"])
     assert all(row.values[0] is None for row in found.rows if row.criterion.name == "flywheel")
     idle = [lw.LinkwrightError(note) for note in found.notes]
     assert [each.values["label"] for each in idle if each.code == "study.no_work"] == [
@@ -385,15 +358,10 @@ def test_a_machine_that_does_no_work_needs_no_flywheel() -> None:
         ("nope.x", "names.no_such", {"name": "nope"}),
     ],
 )
-def test_numbers_that_a_machine_does_not_have_are_requests(
-    name: str, code: str, values: dict[str, object]
-) -> None:
+def test_numbers_that_a_machine_does_not_have_are_requests(name: str, code: str, values: dict[str, object]) -> None:
     with refused(code, RequestError, **values):
         sweep(
-            store.machine("jaw_crusher_sixbar"),
-            {"crank.length": np.array([0.09])},
-            outputs=[f"{name} max"],
-            steps=12,
+            store.machine("jaw_crusher_sixbar"), {"crank.length": np.array([0.09])}, outputs=[f"{name} max"], steps=12
         )
 
 
@@ -406,9 +374,7 @@ def test_values_of_a_comparison_that_it_does_not_have() -> None:
 
 
 def test_values_of_a_study_that_it_does_not_have() -> None:
-    found = study(
-        machine(), {"coupler.length": "3.2, 3.4 m"}, metrics=["travel", "transmission_angle"], steps=24
-    )
+    found = study(machine(), {"coupler.length": "3.2, 3.4 m"}, metrics=["travel", "transmission_angle"], steps=24)
     with refused("study.not_in_study", offer="travel", name="travl"):
         found["travl"]
     with refused("study.no_best", metric="travel"):
@@ -522,11 +488,7 @@ def test_sensitivities_say_what_they_were_asked_for() -> None:
         sensitivity(machine(), of=[], by=["coupler.length"])
     one = sensitivity(machine(), of="rocker.angle range", by=["coupler.length"], steps=24)
     value, slope = found.value("rocker.angle range"), found.gradient("rocker.angle range")[0]
-    assert re.split(r"\s{2,}", repr(one).splitlines()[-1]) == [
-        "rocker.angle range",
-        f"{value:.6g}",
-        f"{slope:.6g}",
-    ]
+    assert re.split(r"\s{2,}", repr(one).splitlines()[-1]) == ["rocker.angle range", f"{value:.6g}", f"{slope:.6g}"]
     assert found.text().splitlines()[-1] == "curves: B.velocity; by coupler.length, rocker.length"
     frame = found.to_dataframe()
     assert frame.index.tolist() == ["B.velocity max", "rocker.angle range"]

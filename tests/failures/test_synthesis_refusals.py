@@ -54,9 +54,7 @@ def test_a_crank_that_cannot_turn() -> None:
 
 
 def test_a_quick_return_that_the_offset_does_not_allow() -> None:
-    with refused(
-        "synthesize.slider_crank.quick_return", lw.SynthesisError, value="2.9", most="1.46053"
-    ) as caught:
+    with refused("synthesize.slider_crank.quick_return", lw.SynthesisError, value="2.9", most="1.46053") as caught:
         lw.synthesize("slider_crank", stroke=0.2, quick_return_ratio=2.9, offset=0.3)
     nearest = caught.value.nearest
     assert nearest is not None
@@ -103,12 +101,7 @@ def test_the_largest_quick_return_ratio_of_a_crank_rocker(swing: float) -> None:
             "synthesize.drag_link.links",
             {"ratio": "1", "minimum": "1.2"},
         ),
-        (
-            "quick_return",
-            {"quick_return_ratio": 1.0, "frame": 0.1},
-            "synthesize.quick_return.one",
-            {"near": "1.05"},
-        ),
+        ("quick_return", {"quick_return_ratio": 1.0, "frame": 0.1}, "synthesize.quick_return.one", {"near": "1.05"}),
         (
             "quick_return",
             {"quick_return_ratio": 2.0, "frame": 1.0, "stroke": 1.0, "rod": 0.01},
@@ -175,24 +168,14 @@ def test_five_poses_without_two_real_dyads_give_the_nearest_linkage() -> None:
             "unknown-task",
             {"task": "slider_crnk", "known": "slider_crank"},
         ),
-        (
-            "task: slider_crank\n  stroke: 40",
-            "synthesis.stroke",
-            "missing-unit",
-            {"text": "40", "right": "40 mm"},
-        ),
+        ("task: slider_crank\n  stroke: 40", "synthesis.stroke", "missing-unit", {"text": "40", "right": "40 mm"}),
         (
             "task: slider_crank\n  strok: 40 mm",
             "synthesis.strok",
             "unknown-demand",
             {"demand": "strok", "offer": "stroke"},
         ),
-        (
-            "task: path\n  points: 3 mm",
-            "synthesis.points",
-            "type",
-            {"demand": "points", "value": "3 mm"},
-        ),
+        ("task: path\n  points: 3 mm", "synthesis.points", "type", {"demand": "points", "value": "3 mm"}),
         (
             "task: function\n  linkage: slider_crank\n  inputs: [0 deg, 20 deg, 40 deg]\n"
             "  outputs: [0 deg, 9 deg, 20 deg]",
@@ -200,17 +183,10 @@ def test_five_poses_without_two_real_dyads_give_the_nearest_linkage() -> None:
             "angles-for-places",
             {},
         ),
-        (
-            "task: path\n  points: [[1 mm, 2 mm, 3 mm]]",
-            "synthesis.points",
-            "type",
-            {"demand": "points"},
-        ),
+        ("task: path\n  points: [[1 mm, 2 mm, 3 mm]]", "synthesis.points", "type", {"demand": "points"}),
     ],
 )
-def test_findings_of_a_section(
-    section: str, key: str, code: str, values: dict[str, object], tmp_path: Path
-) -> None:
+def test_findings_of_a_section(section: str, key: str, code: str, values: dict[str, object], tmp_path: Path) -> None:
     found = said(findings(f"synthesis:\n  {section}\n", tmp_path), code, key, **values)
     assert found.where.startswith("demand.yaml:")
 
@@ -227,26 +203,11 @@ def test_all_findings_at_once(tmp_path: Path) -> None:
     [
         ("path", {"points": [(0, 0), (1, 1)]}, "synthesize.path.few", {"count": 2}),
         ("path", {"points": [(0, 0), (1, 1), (2, float("nan"))]}, "synthesize.points", {}),
-        (
-            "path",
-            {"points": [(0, 0), (1, 1), (2, 1)], "angles": [0, 1]},
-            "synthesize.path.angles",
-            {"angles": 2},
-        ),
+        ("path", {"points": [(0, 0), (1, 1), (2, 1)], "angles": [0, 1]}, "synthesize.path.angles", {"angles": 2}),
         ("path", {"points": [(1, 1), (1, 1), (1, 1)]}, "synthesize.path.one_place", {}),
         ("path", {"points": CORNERS, "angles": [1, 1, 1, 1]}, "synthesize.path.one_angle", {}),
-        (
-            "path",
-            {"points": CORNERS, "angles": [1, 2, float("nan"), 3]},
-            "synthesize.path.angles",
-            {"angles": 3},
-        ),
-        (
-            "path",
-            {"points": CORNERS, "bound": 0.0},
-            "synthesize.not_positive",
-            {"name": "bound", "value": "0"},
-        ),
+        ("path", {"points": CORNERS, "angles": [1, 2, float("nan"), 3]}, "synthesize.path.angles", {"angles": 3}),
+        ("path", {"points": CORNERS, "bound": 0.0}, "synthesize.not_positive", {"name": "bound", "value": "0"}),
         (
             "path",
             {"points": CORNERS, "count": 0},
@@ -254,18 +215,8 @@ def test_all_findings_at_once(tmp_path: Path) -> None:
             {"name": "count", "value": "0", "minimum": 1},
         ),
         ("path", {"points": CORNERS, "seed": -1}, "synthesize.not_whole", {"name": "seed", "value": "-1"}),
-        (
-            "path",
-            {"points": CORNERS, "transmission_angle": math.pi / 2},
-            "synthesize.transmission",
-            {"value": "90"},
-        ),
-        (
-            "exact_path",
-            {"points": [*CORNERS, (1, 0)]},
-            "synthesize.path.same_point",
-            {"first": 2, "second": 5},
-        ),
+        ("path", {"points": CORNERS, "transmission_angle": math.pi / 2}, "synthesize.transmission", {"value": "90"}),
+        ("exact_path", {"points": [*CORNERS, (1, 0)]}, "synthesize.path.same_point", {"first": 2, "second": 5}),
         (
             "function",
             {"inputs": [0.1, 0.1, 0.5], "outputs": [0.2, 0.4, 0.5]},
@@ -278,12 +229,7 @@ def test_all_findings_at_once(tmp_path: Path) -> None:
             "synthesize.function.same",
             {"first": 1, "second": 2},
         ),
-        (
-            "function",
-            {"inputs": [0.1, 0.2, 0.5], "outputs": [0.2, 0.2, 0.2]},
-            "synthesize.function.constant",
-            {},
-        ),
+        ("function", {"inputs": [0.1, 0.2, 0.5], "outputs": [0.2, 0.2, 0.2]}, "synthesize.function.constant", {}),
         (
             "motion",
             {"poses": [(0, 0, 0), (0, 0, 0.2), (0, 0, 0.4)]},
@@ -353,11 +299,7 @@ def test_a_slider_crank_has_no_cognates() -> None:
             "synthesize.transmission_range",
             {"value": "114.592"},
         ),
-        (
-            {"points": [(0, 0), (1, 1)], "seconds": 0.0},
-            "synthesize.not_positive",
-            {"name": "seconds", "value": "0"},
-        ),
+        ({"points": [(0, 0), (1, 1)], "seconds": 0.0}, "synthesize.not_positive", {"name": "seconds", "value": "0"}),
         ({"points": []}, "synthesize.free_curve.no_curve", {}),
         ({"points": [(0, 0), (math.nan, 1)]}, "synthesize.points", {}),
         ({"points": [("a", "b"), ("c", "d")]}, "synthesize.points", {}),
@@ -369,22 +311,10 @@ def test_a_slider_crank_has_no_cognates() -> None:
             "synthesize.not_whole",
             {"name": "joints", "value": "7.5", "minimum": 5},
         ),
-        (
-            {"points": [(0, 0), (1, 1)], "count": 2.5},
-            "synthesize.not_whole",
-            {"name": "count", "value": "2.5"},
-        ),
+        ({"points": [(0, 0), (1, 1)], "count": 2.5}, "synthesize.not_whole", {"name": "count", "value": "2.5"}),
         ({"points": [(0, 0), (1, 1)], "seed": -1}, "synthesize.not_whole", {"name": "seed", "value": "-1"}),
-        (
-            {"points": [(0, 0), (1, 1)], "error": math.nan},
-            "synthesize.negative",
-            {"name": "error", "value": "nan"},
-        ),
-        (
-            {"points": [(0, 0), (1, 1)], "size": math.inf},
-            "synthesize.not_positive",
-            {"name": "size", "value": "inf"},
-        ),
+        ({"points": [(0, 0), (1, 1)], "error": math.nan}, "synthesize.negative", {"name": "error", "value": "nan"}),
+        ({"points": [(0, 0), (1, 1)], "size": math.inf}, "synthesize.not_positive", {"name": "size", "value": "inf"}),
         ({"file": "missing.svg"}, "synthesize.free_curve.file", {"path": "missing.svg"}),
     ],
 )
@@ -410,9 +340,7 @@ def test_a_curve_that_no_four_bar_draws_closely_enough() -> None:
         lw.free_curve([(0.9, 0), (0.9, 1.7), (0, 0.6), (1.3, 0.6)], joints=5, error=0.001, seconds=1.0)
     assert caught.value.nearest is not None
     assert caught.value.nearest.best.error < 0.25
-    assert float(str(caught.value.values["minimum"])) == pytest.approx(
-        caught.value.nearest.best.error, rel=1e-2
-    )
+    assert float(str(caught.value.values["minimum"])) == pytest.approx(caught.value.nearest.best.error, rel=1e-2)
 
 
 def test_bare_numbers_of_a_list_are_one_finding_with_the_line_that_gives_their_unit(tmp_path: Path) -> None:

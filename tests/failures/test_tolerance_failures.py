@@ -62,12 +62,7 @@ HEAD = "format: 1\nkind: tolerance\nmechanism: gallery:crank_rocker\n"
             "unknown-name",
             {"offer": "rocker.angle"},
         ),
-        (
-            "dimensions: {crank.length: 1 mm}\nof: [strok]",
-            "of.0",
-            "no_number",
-            {"name": "strok", "offer": "stroke"},
-        ),
+        ("dimensions: {crank.length: 1 mm}\nof: [strok]", "of.0", "no_number", {"name": "strok", "offer": "stroke"}),
         (
             "dimensions: {crank.length: 1 mm}\ncurves: [rocker.angel]",
             "curves.0",

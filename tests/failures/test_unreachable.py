@@ -41,9 +41,7 @@ def test_missing_distance_is_said() -> None:
         **LACKING,
     ) as caught:
         lw.solve_motion(fourbar(3, 2, 2.5, 4), at=radians(120))
-    assert float(str(caught.value.values["missing"]).removesuffix(" mm")) == pytest.approx(
-        1e3 * missing, rel=1e-6
-    )
+    assert float(str(caught.value.values["missing"]).removesuffix(" mm")) == pytest.approx(1e3 * missing, rel=1e-6)
 
 
 def test_marked_positions_hold_no_numbers() -> None:
@@ -187,9 +185,7 @@ def test_no_range_without_a_driver_or_an_assembly() -> None:
 @pytest.mark.parametrize("steps", [359, 360])
 def test_guides_that_become_parallel_bar_the_way(steps: int) -> None:
     """A turning slot and a fixed guide: at 90° the pin is infinitely far away, y = tan of the angle."""
-    mechanism = lw.loads(
-        re.sub("(?m)^cycle: .*", "cycle: {turns: 1}", lw.dump(store.machine("tangent_mechanism")))
-    )
+    mechanism = lw.loads(re.sub("(?m)^cycle: .*", "cycle: {turns: 1}", lw.dump(store.machine("tangent_mechanism"))))
     motion = lw.solve_motion(mechanism, steps=steps, failures="mark")
     turned = np.degrees(motion.input) % 360.0
     turned -= np.where(turned > 180.0, 360.0, 0.0)
@@ -201,8 +197,7 @@ def test_guides_that_become_parallel_bar_the_way(steps: int) -> None:
 
 
 @pytest.mark.parametrize(
-    ("beyond", "kind"),
-    [(1e-7, "singular"), (9e-7, "singular"), (1.2e-6, "unreachable"), (0.2, "unreachable")],
+    ("beyond", "kind"), [(1e-7, "singular"), (9e-7, "singular"), (1.2e-6, "unreachable"), (0.2, "unreachable")]
 )
 def test_a_position_on_the_limit_of_a_triad_is_singular_and_beyond_it_the_limit_is_said(
     beyond: float, kind: str

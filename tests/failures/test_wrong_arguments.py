@@ -50,11 +50,7 @@ def twice(model: lw.Model) -> None:
 
 #: A call, the code of its refusal, and what it is about.
 CALLS: list[tuple[Callable[[], object], str, dict[str, object]]] = [
-    (
-        lambda: solve(steps="360"),
-        "given_instead.no_whole_from",
-        {"option": "steps", "value": "'360'", "minimum": 1},
-    ),
+    (lambda: solve(steps="360"), "given_instead.no_whole_from", {"option": "steps", "value": "'360'", "minimum": 1}),
     (lambda: solve(steps=3.5), "given_instead.no_whole_from", {"option": "steps", "value": "3.5"}),
     (lambda: solve(steps=NAN), "given_instead.no_whole_from", {"option": "steps", "value": "nan"}),
     (lambda: solve(steps=None), "given_instead.no_whole_from", {"option": "steps", "value": "None"}),
@@ -106,11 +102,7 @@ CALLS: list[tuple[Callable[[], object], str, dict[str, object]]] = [
         {"names": ("auto", "forward", "reverse"), "option": "way", "value": "'back'"},
     ),
     (lambda: slopes(of=[1], by=CRANK), "study.no_output_name", {"value": "1"}),
-    (
-        lambda: slopes(of=OUTPUT, by=CRANK).slope("rocker.angle", CRANK),
-        "study.no_curve",
-        {"output": "rocker.angle"},
-    ),
+    (lambda: slopes(of=OUTPUT, by=CRANK).slope("rocker.angle", CRANK), "study.no_curve", {"output": "rocker.angle"}),
     (lambda: aim({}, vary=CRANK), "study.no_outputs", {}),
     (lambda: aim(3, vary=CRANK), "study.no_output_name", {"value": "3"}),
     (lambda: aim(OUTPUT, vary=[]), "study.nothing_varied", {}),
@@ -127,11 +119,7 @@ CALLS: list[tuple[Callable[[], object], str, dict[str, object]]] = [
     (lambda: aim(OUTPUT, vary=CRANK, at=[]), "motion.no_positions", {}),
     (lambda: aim(lw.PathError("P", "path"), vary=CRANK), "study.objective_target", {}),
     (lambda: aim(lw.PathError("P", np.empty((0, 2))), vary=CRANK), "study.objective_target", {}),
-    (
-        lambda: aim(lw.PathError("P", motion().point("P").position * NAN), vary=CRANK),
-        "study.objective_gaps",
-        {},
-    ),
+    (lambda: aim(lw.PathError("P", motion().point("P").position * NAN), vary=CRANK), "study.objective_gaps", {}),
     (lambda: value()(1.0), "study.objective_shape", {"names": ("crank.length",)}),
     (lambda: value()("1 m"), "study.objective_numbers", {"names": ("crank.length",)}),
     (lambda: value().many({CRANK: [1.0]}), "study.objective_numbers", {"names": ("crank.length",)}),
@@ -156,33 +144,13 @@ CALLS: list[tuple[Callable[[], object], str, dict[str, object]]] = [
         "given_instead.no_real",
         {"option": "efficiency", "value": "'90 %'"},
     ),
-    (
-        lambda: lw.worked(motion(), position=1.5),
-        "given_instead.no_whole",
-        {"option": "position", "value": "1.5"},
-    ),
-    (
-        lambda: lw.draw(motion(), position="1"),
-        "given_instead.no_whole",
-        {"option": "position", "value": "'1'"},
-    ),
+    (lambda: lw.worked(motion(), position=1.5), "given_instead.no_whole", {"option": "position", "value": "1.5"}),
+    (lambda: lw.draw(motion(), position="1"), "given_instead.no_whole", {"option": "position", "value": "'1'"}),
     (lambda: lw.draw(motion(), time="1 s"), "given_instead.no_real", {"option": "time", "value": "'1 s'"}),
     (lambda: lw.draw(motion(), diagonal=0), "picture.bad_diagonal", {"diagonal": 0}),
-    (
-        lambda: lw.draw(motion(), size="large"),
-        "given_instead.no_real",
-        {"option": "size", "value": "'large'"},
-    ),
-    (
-        lambda: lw.animate(motion(), frames=10.5),
-        "given_instead.no_whole",
-        {"option": "frames", "value": "10.5"},
-    ),
-    (
-        lambda: lw.animate(motion(), seconds="2 s"),
-        "given_instead.no_real",
-        {"option": "seconds", "value": "'2 s'"},
-    ),
+    (lambda: lw.draw(motion(), size="large"), "given_instead.no_real", {"option": "size", "value": "'large'"}),
+    (lambda: lw.animate(motion(), frames=10.5), "given_instead.no_whole", {"option": "frames", "value": "10.5"}),
+    (lambda: lw.animate(motion(), seconds="2 s"), "given_instead.no_real", {"option": "seconds", "value": "'2 s'"}),
     (lambda: lw.plot(motion(), size=5), "picture.bad_inches", {"size": "5"}),
     (lambda: lw.structure(FOUR_BAR).text("de"), "names.no_language", {"language": "de"}),
     (
@@ -202,11 +170,7 @@ CALLS: list[tuple[Callable[[], object], str, dict[str, object]]] = [
     (lambda: lw.motion_generation(POSES, within=((0, 0),)), "synthesize.points", {}),
     (lambda: lw.motion_generation(POSES, fixed_pivots=[(0.0,)]), "synthesize.points", {}),
     (lambda: found().mechanism(speed="60 kg"), "wrong-dimension", {"name": "speed"}),
-    (
-        lambda: found().loads("1 kg/m"),
-        "given_instead.no_real",
-        {"option": "mass_per_length", "value": "'1 kg/m'"},
-    ),
+    (lambda: found().loads("1 kg/m"), "given_instead.no_real", {"option": "mass_per_length", "value": "'1 kg/m'"}),
     (lambda: lw.export(motion(), "model.yaml"), "export.no_ending", {"suffix": ".yaml"}),
     (
         lambda: lw.sweep(FOUR_BAR, {CRANK: np.ones((2, 2))}, outputs=OUTPUT),
@@ -219,21 +183,9 @@ CALLS: list[tuple[Callable[[], object], str, dict[str, object]]] = [
         "given_instead.no_pair",
         {"option": "profile_shift", "value": "0.2"},
     ),
-    (
-        lambda: lw.gear_pair((20, 40), "3 mm"),
-        "given_instead.no_real",
-        {"option": "module", "value": "'3 mm'"},
-    ),
-    (
-        lambda: lw.motion_law("cycloidal", portion="x"),
-        "given_instead.no_pair",
-        {"option": "portion", "value": "'x'"},
-    ),
-    (
-        lambda: lw.variants("gallery:crank_rocker", 2.5),
-        "given_instead.no_whole",
-        {"option": "count", "value": "2.5"},
-    ),
+    (lambda: lw.gear_pair((20, 40), "3 mm"), "given_instead.no_real", {"option": "module", "value": "'3 mm'"}),
+    (lambda: lw.motion_law("cycloidal", portion="x"), "given_instead.no_pair", {"option": "portion", "value": "'x'"}),
+    (lambda: lw.variants("gallery:crank_rocker", 2.5), "given_instead.no_whole", {"option": "count", "value": "2.5"}),
     (
         lambda: lw.variants("gallery:crank_rocker", 2, seed="a"),
         "given_instead.no_whole",
@@ -253,11 +205,7 @@ def test_what_cannot_be_taken_is_one_sentence(
 
 
 def test_whole_numbers_may_be_floats() -> None:
-    assert (
-        lw.solve_motion(FOUR_BAR, steps=12.0).steps
-        == lw.solve_motion(FOUR_BAR, steps=np.int64(12)).steps
-        == 12
-    )
+    assert lw.solve_motion(FOUR_BAR, steps=12.0).steps == lw.solve_motion(FOUR_BAR, steps=np.int64(12)).steps == 12
 
 
 def test_a_generator_of_outputs_is_read_once() -> None:
@@ -266,7 +214,5 @@ def test_a_generator_of_outputs_is_read_once() -> None:
 
 
 def test_speeds_of_candidates_are_texts_or_rad_per_s() -> None:
-    speeds = [
-        found().mechanism(speed=each).dimension("driver.speed") for each in (2 * np.pi, "60 rpm", "60rpm", 6)
-    ]
+    speeds = [found().mechanism(speed=each).dimension("driver.speed") for each in (2 * np.pi, "60 rpm", "60rpm", 6)]
     assert speeds == pytest.approx([2 * np.pi, 2 * np.pi, 2 * np.pi, 6.0], rel=1e-12)

@@ -13,9 +13,7 @@ from linkwright.errors import LinkwrightError
 def drawn_in_chinese(result: Any, kind: str | None = None, **options: Any) -> Diagram:
     """The diagram of a result."""
     try:
-        return (
-            plot(result, kind, language="zh", **options) if kind else plot(result, language="zh", **options)
-        )
+        return plot(result, kind, language="zh", **options) if kind else plot(result, language="zh", **options)
     except LinkwrightError as error:
         if error.code != "picture.boxes":
             raise

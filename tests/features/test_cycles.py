@@ -52,13 +52,19 @@ def time_span(mechanism: lw.Mechanism) -> tuple[float, float, bool]:
         ("speed: 0.75 rad/s", "", (0.0, 8 * pi, True)),
         ("speed: 2.17 rad/s", "", (0.0, pi, False)),
         ("speed: 2.8284271247461903 rad/s", "", (0.0, pi, False)),
-        (SPEED, TABLE.format(end=2, last=0).replace("0 s, 1 s", f"0 s, {pi} s").replace("2 s", f"{2 * pi} s"),
-         (0.0, 2 * pi, True)),
-        (SPEED, TABLE.format(end=2, last=0.05).replace("0 s, 1 s", f"0 s, {pi} s").replace("2 s", f"{2 * pi} s"),
-         (0.0, 2 * pi, False)),
+        (
+            SPEED,
+            TABLE.format(end=2, last=0).replace("0 s, 1 s", f"0 s, {pi} s").replace("2 s", f"{2 * pi} s"),
+            (0.0, 2 * pi, True),
+        ),
+        (
+            SPEED,
+            TABLE.format(end=2, last=0.05).replace("0 s, 1 s", f"0 s, {pi} s").replace("2 s", f"{2 * pi} s"),
+            (0.0, 2 * pi, False),
+        ),
         (SPEED, "speed: 0.1 m/s", (0.0, pi, False)),
     ],
-)  # fmt: skip
+)
 def test_a_cycle_lasts_until_all_drivers_are_back_or_as_long_as_the_slowest(
     second: str, third: str, span: tuple[float, float, bool]
 ) -> None:
@@ -79,7 +85,7 @@ def test_a_cycle_lasts_until_all_drivers_are_back_or_as_long_as_the_slowest(
         (SPEED, "from: 90 deg, to: 150 deg", (radians(30), radians(30), False)),
         ("speed: -0.5 rad/s, start: 10 deg", "from: 0 deg, to: -90 deg", (radians(20), pi, False)),
     ],
-)  # fmt: skip
+)
 def test_a_cycle_that_the_file_gives(first: str, cycle: str, span: tuple[float, float, bool]) -> None:
     mechanism = machine(first, first, cycle=cycle)
     begin, duration, closed = time_span(mechanism)

@@ -42,9 +42,7 @@ def test_options_reach_the_diagram(tmp_path: Path, capsys: pytest.CaptureFixture
 
 def test_an_unknown_kind_lists_the_kinds(tmp_path: Path) -> None:
     error = is_refused(
-        ["plot", CRUSHER, "--kind", "polygon", "--output", str(tmp_path / "x.svg")],
-        "picture.no_kind",
-        name="--kind",
+        ["plot", CRUSHER, "--kind", "polygon", "--output", str(tmp_path / "x.svg")], "picture.no_kind", name="--kind"
     )
     assert {"hodograph", "force_polygon"} < set(error.values["names"])
     assert list(tmp_path.iterdir()) == []

@@ -32,10 +32,7 @@ def drawn(axes: object) -> list[tuple[tuple[object, object], np.ndarray]]:
     """Look (colour, dashes) and values in N at :data:`TIMES` of every curve of a panel."""
     factor = next(value for unit, value in NEWTONS.items() if axes.get_ylabel().endswith(unit))
     return [
-        (
-            (line.get_color(), line.get_linestyle()),
-            factor * np.interp(TIMES, line.get_xdata(), line.get_ydata()),
-        )
+        ((line.get_color(), line.get_linestyle()), factor * np.interp(TIMES, line.get_xdata(), line.get_ydata()))
         for line in axes.lines
         if len(line.get_xdata()) > 100
     ]
@@ -72,9 +69,23 @@ def test_a_turning_driver_has_a_torque() -> None:
 def test_every_joint_is_drawn_once_and_pins_of_several_links_once_for_each(forces: lw.Forces) -> None:
     curves = by_name(plot(forces, "reactions"))
     assert set(curves) == {
-        "O", "U", "S", "K1", "K2", "B", "K3", "K4", "W", "L", "J (bucket_rod)", "J (rocker)", "J (tie)",
-        "boom_stroke", "stick_stroke", "bucket_stroke",
-    }  # fmt: skip
+        "O",
+        "U",
+        "S",
+        "K1",
+        "K2",
+        "B",
+        "K3",
+        "K4",
+        "W",
+        "L",
+        "J (bucket_rod)",
+        "J (rocker)",
+        "J (tie)",
+        "boom_stroke",
+        "stick_stroke",
+        "bucket_stroke",
+    }
     assert curves["O"] == pytest.approx(AT_O, rel=1e-4)
     assert curves["S"] == pytest.approx(AT_S, rel=1e-4)
 

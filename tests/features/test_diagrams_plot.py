@@ -30,9 +30,7 @@ def words_of(diagram: Diagram) -> list[str]:
     if isinstance(diagram.figure, lw.Drawing):
         texts = (each for each in ElementTree.fromstring(diagram.svg()).iter() if each.tag.endswith("}text"))
         return ["".join(each.itertext()) for each in texts]
-    return [
-        text.get_text() for text in diagram.figure.findobj(Text) if text.get_visible() and text.get_text()
-    ]
+    return [text.get_text() for text in diagram.figure.findobj(Text) if text.get_visible() and text.get_text()]
 
 
 def test_curves_close_and_go_with_the_motion(forces: lw.Forces) -> None:
@@ -60,9 +58,7 @@ def test_mean_torque_is_marked_as_the_power_over_the_speed(forces: lw.Forces) ->
     diagram = plot(forces, "torque")
     mean = lw.solve_forces(forces.mechanism, steps=36_000).power.mean() / (-170 * np.pi / 30)
     levels = [
-        line
-        for line in diagram.figure.axes[0].lines
-        if len(set(line.get_ydata())) == 1 and line.get_ydata()[0]
+        line for line in diagram.figure.axes[0].lines if len(set(line.get_ydata())) == 1 and line.get_ydata()[0]
     ]
     assert any(line.get_ydata()[0] == pytest.approx(mean, rel=1e-4) for line in levels)
     assert any("−" in text and text.endswith(" N·m") for text in words_of(diagram))
@@ -134,12 +130,7 @@ def test_names_are_no_formulas() -> None:
     )
     mechanism = lw.loads(text)
     for kind in ("sva", "angles", "velocity_polygon"):
-        assert (
-            plot(mechanism, kind, of=["_k", "c"] if kind == "angles" else ())
-            .svg()
-            .rstrip()
-            .endswith("</svg>")
-        )
+        assert plot(mechanism, kind, of=["_k", "c"] if kind == "angles" else ()).svg().rstrip().endswith("</svg>")
 
 
 def test_settings_of_matplotlib_stay_as_they_were(forces: lw.Forces) -> None:
@@ -208,9 +199,7 @@ def test_limit_positions_and_phase_stand_where_the_gallery_file_says(forces: lw.
     diagram = plot(forces.motion, "sva")
     for axes in every(diagram.figure.axes, least=3):
         upright = [
-            line.get_xdata()[0]
-            for line in axes.lines
-            if len({*line.get_xdata()}) == 1 < len(line.get_xdata())
+            line.get_xdata()[0] for line in axes.lines if len({*line.get_xdata()}) == 1 < len(line.get_xdata())
         ]
         assert upright == pytest.approx([-89.862115, -272.43420], abs=1e-5)
         (phase,) = axes.patches
@@ -220,8 +209,7 @@ def test_limit_positions_and_phase_stand_where_the_gallery_file_says(forces: lw.
 
 
 @pytest.mark.parametrize(
-    ("name", "output"),
-    [("swing_conveyor", "guide"), ("geared_fivebar", "bar_2"), ("external_gear_pair", "wheel")],
+    ("name", "output"), [("swing_conveyor", "guide"), ("geared_fivebar", "bar_2"), ("external_gear_pair", "wheel")]
 )
 def test_the_output_that_is_drawn_where_none_is_named(name: str, output: str) -> None:
     """A block on the frame means its displacement; a wheel in a fixed ratio to the driver is shown where there is
@@ -229,11 +217,7 @@ def test_the_output_that_is_drawn_where_none_is_named(name: str, output: str) ->
     motion = store.motion(name, 12)
     angle, *_ = plot(motion, "sva").figure.axes
     curve = max(angle.lines, key=lambda line: len(line.get_xdata()))
-    expected = (
-        1e3 * motion.joint(output).displacement
-        if output == "guide"
-        else np.degrees(motion.link(output).angle)
-    )
+    expected = 1e3 * motion.joint(output).displacement if output == "guide" else np.degrees(motion.link(output).angle)
     x = np.degrees(motion.input)
     there = np.argsort(curve.get_xdata())
     drawn = np.interp(x, np.asarray(curve.get_xdata())[there], np.asarray(curve.get_ydata())[there])

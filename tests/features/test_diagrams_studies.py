@@ -36,10 +36,7 @@ def comparison() -> Comparison:
 @pytest.fixture(scope="module")
 def one() -> Study:
     return study(
-        ROCKER,
-        {"coupler.length": "1.013..7 m:20"},
-        metrics=["transmission_angle", "B.velocity max"],
-        steps=36,
+        ROCKER, {"coupler.length": "1.013..7 m:20"}, metrics=["transmission_angle", "B.velocity max"], steps=36
     )
 
 
@@ -66,9 +63,7 @@ def named_in_legend(diagram: Diagram) -> set[str]:
 
 def drawn(axes: Axes, count: int | None = None) -> list[tuple[Floats, Floats]]:
     """Abscissas and ordinates of the lines, or of those that have so many points."""
-    found = [
-        (np.asarray(line.get_xdata(), float), np.asarray(line.get_ydata(), float)) for line in axes.lines
-    ]
+    found = [(np.asarray(line.get_xdata(), float), np.asarray(line.get_ydata(), float)) for line in axes.lines]
     return [(x, y) for x, y in found if count in (None, len(x))]
 
 
@@ -108,14 +103,15 @@ def test_the_pivots_hodographs_have_one_scale(comparison: Comparison) -> None:
 
 
 def test_outputs_that_turn_and_that_slide_have_panels_of_their_own() -> None:
-    found = compare(
-        [SIX, "gallery:slider_crank_inline"], metrics=["travel"], output=["jaw", "cylinder"], steps=36
-    )
+    found = compare([SIX, "gallery:slider_crank_inline"], metrics=["travel"], output=["jaw", "cylinder"], steps=36)
     figure = found.plot(of=["travel", "velocity"]).figure
     assert [len(drawn(axes, 37)) for axes in figure.axes] == [1, 1, 1, 1]
     assert [axes.get_ylabel().split()[-2:] for axes in figure.axes] == [
-        ["θ", "(°)"], ["s", "(mm)"], ["ω", "(rad/s)"], ["v", "(m/s)"],
-    ]  # fmt: skip
+        ["θ", "(°)"],
+        ["s", "(mm)"],
+        ["ω", "(rad/s)"],
+        ["v", "(m/s)"],
+    ]
 
 
 def test_a_study_over_one_dimension_is_a_curve_with_its_failures(one: Study) -> None:

@@ -140,9 +140,7 @@ def test_names_of_arrows_stay_in_the_picture_over_the_whole_motion() -> None:
             shift = re.fullmatch(r"translate\((\S+) (\S+)\)", group.get("transform", ""))
             for text in group.findall(f"{SVG}text") if shift else ():
                 assert shift is not None
-                x, y = (
-                    float(text.get(k, "nan")) + float(s) for k, s in zip("xy", shift.groups(), strict=True)
-                )
+                x, y = (float(text.get(k, "nan")) + float(s) for k, s in zip("xy", shift.groups(), strict=True))
                 assert left <= x <= left + width
                 assert top <= y <= top + height
                 names.add("".join(text.itertext()))

@@ -21,9 +21,7 @@ def solved(name: str) -> Any:
     ("name", "supports", "walls"),
     [("cam_roller", 1, 2), ("cam_flat_face", 1, 2), ("cam_oscillating", 2, 0), ("cam_barrel", 0, 0)],
 )
-def test_what_turns_stands_on_supports_and_what_slides_is_guided(
-    name: str, supports: int, walls: int
-) -> None:
+def test_what_turns_stands_on_supports_and_what_slides_is_guided(name: str, supports: int, walls: int) -> None:
     svg = solved(name).draw(0.7).svg
     assert svg.count('class="lw-support"') == supports
     assert svg.count('class="lw-pin"') >= supports

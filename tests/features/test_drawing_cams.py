@@ -33,9 +33,7 @@ def closed_curves(svg: str) -> list[np.ndarray]:
 
 def scale_of(svg: str, pivot: tuple[float, float]) -> float:
     """Pixels for a metre, by the tip of the cam's support."""
-    supports = [
-        numbers(e.get("d", ""))[:2] for e in ET.fromstring(svg).iter() if e.get("class") == "lw-support"
-    ]
+    supports = [numbers(e.get("d", ""))[:2] for e in ET.fromstring(svg).iter() if e.get("class") == "lw-support"]
     return float(np.hypot(*supports[0]) / np.hypot(*pivot))
 
 

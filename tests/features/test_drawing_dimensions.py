@@ -62,9 +62,7 @@ def distance(place: Floats, line: Floats) -> float:
 def test_values_stand_over_their_lines_in_their_direction(name: str) -> None:
     drawing = draw(store.machine(name), dimensions=True)
     for _, middle, turned in every(values(drawing)):
-        nearest = min(
-            (line for line in lines(drawing) if len(line) == 2), key=lambda each: distance(middle, each)
-        )
+        nearest = min((line for line in lines(drawing) if len(line) == 2), key=lambda each: distance(middle, each))
         way = nearest[1] - nearest[0]
         direction = math.degrees(math.atan2(way[1], way[0]))
         assert math.isclose(math.sin(math.radians(direction - turned)), 0.0, abs_tol=0.01)

@@ -97,9 +97,7 @@ def test_symbols_do_not_depend_on_the_size_of_the_machine(crusher: lw.Motion) ->
 
 def test_everything_lies_inside_the_view_box(crusher: lw.Motion) -> None:
     forces = lw.solve_forces(crusher)
-    drawing = draw(
-        crusher, forces=forces, overlay="limits", velocities=True, dimensions=("pitman", ("O1", "O3"))
-    )
+    drawing = draw(crusher, forces=forces, overlay="limits", velocities=True, dimensions=("pitman", ("O1", "O3")))
     left, top, width, height = map(float, ET.fromstring(drawing.svg).get("viewBox", "").split())
     for x, y in every(circles_on_paper(drawing, "lw-pin"), least=6):
         assert left < x < left + width and top < y < top + height
@@ -114,14 +112,10 @@ def test_everything_lies_inside_the_view_box(crusher: lw.Motion) -> None:
 def test_velocity_arrows_are_to_scale(crusher: lw.Motion) -> None:
     drawing = draw(crusher, position=20, velocities=("A", "B", "C"), labels=False, inputs=False)
     marks = [
-        e.get("d", "")
-        for e in ET.fromstring(drawing.svg).iter(f"{SVG}path")
-        if e.get("class") == "lw-velocity-head"
+        e.get("d", "") for e in ET.fromstring(drawing.svg).iter(f"{SVG}path") if e.get("class") == "lw-velocity-head"
     ]
     lines = [
-        e.get("d", "")
-        for e in ET.fromstring(drawing.svg).iter(f"{SVG}path")
-        if e.get("class") == "lw-velocity-line"
+        e.get("d", "") for e in ET.fromstring(drawing.svg).iter(f"{SVG}path") if e.get("class") == "lw-velocity-line"
     ]
     tips = [complex(*map(float, re.findall(r"-?[\d.]+", mark)[:2])) for mark in marks]
     feet = [complex(*map(float, re.findall(r"-?[\d.]+", line)[:2])) for line in lines]
@@ -153,9 +147,7 @@ def test_limit_positions_are_drawn_there(crusher: lw.Motion) -> None:
     assert classes(draw(crusher, overlay="faded:8")).count("lw-faded") == 8
 
 
-@pytest.mark.parametrize(
-    "name", ["crank_rocker", "shaper_quick_return", "slider_crank_inline", "toggle_press"]
-)
+@pytest.mark.parametrize("name", ["crank_rocker", "shaper_quick_return", "slider_crank_inline", "toggle_press"])
 def test_both_limit_positions_lie_inside_the_picture(name: str) -> None:
     motion = store.motion(name, 5)
     both = draw(motion, overlay="limits")
@@ -346,9 +338,7 @@ def test_size_is_the_longer_side(crusher: lw.Motion) -> None:
     assert max(float(root.get("width", 0)), float(root.get("height", 0))) == 500
 
 
-def test_saving_is_whole_or_not_at_all(
-    crusher: lw.Motion, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_saving_is_whole_or_not_at_all(crusher: lw.Motion, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     target = tmp_path / "crusher.svg"
     assert draw(crusher).save(target) == target
     assert target.read_text(encoding="utf-8") == draw(crusher)._repr_svg_()
@@ -383,11 +373,7 @@ def test_png_and_pdf(crusher: lw.Motion, tmp_path: Path) -> None:
 
 
 def test_notebooks_show_the_drawing() -> None:
-    for shown in (
-        store.machine("crank_rocker"),
-        store.motion("crank_rocker", 12),
-        store.forces("crank_rocker", 12),
-    ):
+    for shown in (store.machine("crank_rocker"), store.motion("crank_rocker", 12), store.forces("crank_rocker", 12)):
         picture = shown._repr_svg_()
         assert picture is not None
         assert ET.fromstring(picture).tag == f"{SVG}svg"

@@ -72,9 +72,7 @@ def test_length_times_scale_is_the_reaction_and_every_vector_has_its_name(name: 
     index = 5 % forces.motion.steps
     numbers = ["frame", *forces.mechanism.links]
     entries = {
-        t.split(" = ")[0]: quantity(t)
-        for t in texts(drawing, "lw-force-name")
-        if t.startswith("F") and "=" in t
+        t.split(" = ")[0]: quantity(t) for t in texts(drawing, "lw-force-name") if t.startswith("F") and "=" in t
     }
     arrows = lines(drawing, "lw-force")
     scale_text = next(t for t in texts(drawing, "lw-legend") if re.match(r"[\d.]+ [kM]?N  ", t))
@@ -89,9 +87,7 @@ def test_length_times_scale_is_the_reaction_and_every_vector_has_its_name(name: 
         joint = (
             one
             if one in forces.mechanism.joints
-            else next(
-                key for key, j in forces.mechanism.joints.items() if set(j.joined) == {numbers[int(one)], on}
-            )
+            else next(key for key, j in forces.mechanism.joints.items() if set(j.joined) == {numbers[int(one)], on})
         )
         expected[symbol] = float(np.hypot(*forces.reaction(joint, on=on)[index]))
     assert entries == pytest.approx(expected, rel=6e-4, abs=1e-9)
@@ -110,13 +106,9 @@ def test_direction_is_that_of_the_force_on_the_second_link() -> None:
     assert texts(drawing, "lw-force-name").count("F01") == 1
     values = {t.split(" = ")[0]: quantity(t) for t in texts(drawing) if " = " in t}
     assert values == pytest.approx({"F01": weight * math.cos(math.pi / 6), "Fd": weight / 2}, rel=6e-4)
-    left = np.array(
-        [-math.sin(math.pi / 6), -math.cos(math.pi / 6)]
-    )  # normal of the guide, y down on the paper
+    left = np.array([-math.sin(math.pi / 6), -math.cos(math.pi / 6)])  # normal of the guide, y down on the paper
     assert normal / np.hypot(*normal) == pytest.approx(left, abs=2e-4)
-    assert along / np.hypot(*along) == pytest.approx(
-        [math.cos(math.pi / 6), -math.sin(math.pi / 6)], abs=2e-4
-    )
+    assert along / np.hypot(*along) == pytest.approx([math.cos(math.pi / 6), -math.sin(math.pi / 6)], abs=2e-4)
     assert np.hypot(*normal) / np.hypot(*along) == pytest.approx(math.sqrt(3.0), abs=1e-3)
 
 

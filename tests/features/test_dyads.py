@@ -7,21 +7,7 @@ import pytest
 from tests import store
 
 import linkwright as lw
-from linkwright.dyads import (
-    Body,
-    Line,
-    Load,
-    State,
-    bar,
-    forces,
-    prp,
-    rpp,
-    rpr,
-    rrp,
-    rrr,
-    slider,
-    slider_forces,
-)
+from linkwright.dyads import Body, Line, Load, State, bar, forces, prp, rpp, rpr, rrp, rrr, slider, slider_forces
 
 T, H = np.linspace(0.0, 1.0, 25), 1e-5
 G = np.array([0.3, -9.81])
@@ -31,11 +17,7 @@ class Wave:
     """A smooth function of time with its exact derivatives."""
 
     def __init__(self, random: np.random.Generator, size: float, centre: float = 0.0) -> None:
-        self.a, self.w, self.p = (
-            size * random.uniform(-1, 1, 2),
-            random.uniform(1, 4, 2),
-            random.uniform(0, 6, 2),
-        )
+        self.a, self.w, self.p = (size * random.uniform(-1, 1, 2), random.uniform(1, 4, 2), random.uniform(0, 6, 2))
         self.centre = centre
 
     def __call__(self, t):
@@ -98,7 +80,7 @@ def test_rates_are_the_derivatives_of_positions(name, mode):
         *(lambda m, i=i: tuple(vars(m.slides[i]).values()) for i in range(len(at.slides))),
         lambda m: (np.unwrap(m.first.angle), m.first.angular_velocity, m.first.angular_acceleration),
         lambda m: (np.unwrap(m.second.angle), m.second.angular_velocity, m.second.angular_acceleration),
-    ):  # fmt: skip
+    ):
         exact, one, two = read(at), read(before), read(after)
         for rate in (0, 1):
             assert exact[rate + 1] == pytest.approx((two[rate] - one[rate]) / (2 * H), abs=2e-6)
@@ -151,11 +133,13 @@ def test_forces_keep_both_links_in_equilibrium(name, mode):
     at = DYADS[name](random, mode)(T)
     bodies = [
         Body(
-            random.uniform(1, 3), random.uniform(0.01, 0.1), tuple(random.uniform(-0.2, 0.2, 2)),
+            random.uniform(1, 3),
+            random.uniform(0.01, 0.1),
+            tuple(random.uniform(-0.2, 0.2, 2)),
             [Load(random.uniform(-50, 50, 2), line.point(*random.uniform(-0.3, 0.3, 2)), random.uniform(-5, 5))],
         )
         for line in (at.first, at.second)
-    ]  # fmt: skip
+    ]
     found = forces(at, *bodies, G)
     for i in (0, 11, 24):
         for joint, (force, couple) in _equilibrium(name, at, bodies, i).items():
@@ -203,15 +187,14 @@ def test_points_of_a_solved_motion_go_in(name):
     (inner,) = {each.joint for each in group.inner_joints}
     chains = [step for step in group.tree if step.turns]
     pins = [step.joint for step in chains]
-    lengths = [
-        np.hypot(*(motion.point(inner).position - motion.point(pin).position).T).mean() for pin in pins
-    ]
+    lengths = [np.hypot(*(motion.point(inner).position - motion.point(pin).position).T).mean() for pin in pins]
     mode = next(
-        each for each in ("left", "right")
+        each
+        for each in ("left", "right")
         if np.allclose(
             rrr(*map(motion.point, pins), lengths, each).inner.position, motion.point(inner).position, atol=1e-9
         )
-    )  # fmt: skip
+    )
     found = rrr(*map(motion.point, pins), lengths, mode)
     assert found.inner.acceleration == pytest.approx(motion.point(inner).acceleration, rel=1e-7, abs=1e-7)
 
@@ -240,18 +223,5 @@ def test_driven_links():
 
 def test_names_of_the_teaching_texts_lead_here():
     words = lw.dyads.__doc__ or ""
-    for name in (
-        "bark",
-        "rrrk",
-        "rrpk",
-        "rprk",
-        "prpk",
-        "rppk",
-        "barf",
-        "rrrf",
-        "rrpf",
-        "rprf",
-        "prpf",
-        "rppf",
-    ):
+    for name in ("bark", "rrrk", "rrpk", "rprk", "prpk", "rppk", "barf", "rrrf", "rrpf", "rprf", "prpf", "rppf"):
         assert name in words

@@ -24,9 +24,7 @@ class Book:
     def __init__(self, path: Path) -> None:
         self.book = openpyxl.load_workbook(path)
         with zipfile.ZipFile(path) as archive:
-            names = sorted(
-                (n for n in archive.namelist() if re.match(r"xl/charts/chart\d+\.xml", n)), key=number
-            )
+            names = sorted((n for n in archive.namelist() if re.match(r"xl/charts/chart\d+\.xml", n)), key=number)
             self.charts = [ET.fromstring(archive.read(name)) for name in names]
 
     def cells(self, reference: str) -> list[float | None]:

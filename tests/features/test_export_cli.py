@@ -64,9 +64,7 @@ def test_a_machine_that_does_not_assemble_leaves_no_file(tmp_path: Path) -> None
         "  rocker: {points: [P, B], length: 2 m}\ndriver: {turn: crank, about: O, speed: 1 rad/s}\n",
         encoding="utf-8",
     )
-    is_refused(
-        ["export", str(model), "--output", str(tmp_path / "a.xml")], "motion.refused", 1, missing="4000 mm"
-    )
+    is_refused(["export", str(model), "--output", str(tmp_path / "a.xml")], "motion.refused", 1, missing="4000 mm")
     assert [path.name for path in tmp_path.iterdir()] == ["m.yaml"]
 
 

@@ -35,8 +35,11 @@ def test_links_have_their_lengths(motion: lw.Motion, tmp_path: Path) -> None:
     document = read(motion, tmp_path)
     assert document.units == 4
     lines = on_layer(document, "links")
-    found = sorted(float(np.hypot(*np.ptp(np.array(line.get_points("xy")), axis=0))) for line in lines if
-                   line.dxftype() == "LWPOLYLINE")  # fmt: skip
+    found = sorted(
+        float(np.hypot(*np.ptp(np.array(line.get_points("xy")), axis=0)))
+        for line in lines
+        if line.dxftype() == "LWPOLYLINE"
+    )
     found += [(line.dxf.end - line.dxf.start).magnitude for line in lines if line.dxftype() == "LINE"]
     assert sorted(found) == pytest.approx([100.0, 1000.0, 1150.0, 1250.0, 1960.0], rel=1e-12)
 

@@ -51,9 +51,7 @@ def largest_gap(name: str, steps: int, every: int) -> float:
         mujoco.mj_step(model, data)
     motion = lw.solve_motion(mechanism, times=times)
     names = [model.site(index).name for index in range(model.nsite)]
-    moving = [
-        (index, motion.point(name).position) for index, name in enumerate(names) if "frame." not in name
-    ]
+    moving = [(index, motion.point(name).position) for index, name in enumerate(names) if "frame." not in name]
     travel = max(float(np.ptp(place, axis=0).max()) for _, place in moving)
     return max(float(np.abs(np.array(places)[:, index] - place).max()) for index, place in moving) / travel
 

@@ -28,9 +28,7 @@ def test_a_cycle_agrees(name: str) -> None:
     text = text_of(store.machine(name))
     begin, end = (float(re.findall(rf"{word}=([^,]+),", text)[0]) for word in ("StartTime", "StopTime"))
     model = rumoca.Session().loads(text, model="Machine")
-    result = model.simulate(
-        (begin, end), dt=(end - begin) / 180, config=rumoca.SimConfig(rtol=1e-9, atol=1e-11)
-    )
+    result = model.simulate((begin, end), dt=(end - begin) / 180, config=rumoca.SimConfig(rtol=1e-9, atol=1e-11))
     motion = lw.solve_motion(store.machine(name), times=np.clip(result.time, begin, end))
     for link in every(motion.mechanism.links):
         found = motion.link(link)

@@ -153,12 +153,7 @@ def test_nothing_is_left_behind_when_writing_fails(tmp_path: Path) -> None:
         ("a.step", {}, "export.no_ending", {"suffix": ".step"}),
         ("a", {}, "export.no_ending", {"suffix": ""}),
         ("a.csv", {"format": "exel"}, "names.no_such", {"name": "exel", "offer": "xlsx"}),
-        (
-            "a.csv",
-            {"degree": True},
-            "export.no_option",
-            {"option": "degree", "offer": "degrees", "name": "csv"},
-        ),
+        ("a.csv", {"degree": True}, "export.no_option", {"option": "degree", "offer": "degrees", "name": "csv"}),
         ("missing/a.csv", {}, "file.no_folder", {}),
         ("a.csv", {"language": "de"}, "names.no_language", {"language": "de"}),
         ("a.dxf", {"unit": "inch"}, "export.bad_unit", {"unit": "inch"}),
@@ -166,12 +161,7 @@ def test_nothing_is_left_behind_when_writing_fails(tmp_path: Path) -> None:
     ],
 )
 def test_mistakes_are_named(
-    forces: Forces,
-    tmp_path: Path,
-    name: str,
-    options: dict[str, object],
-    code: str,
-    values: dict[str, object],
+    forces: Forces, tmp_path: Path, name: str, options: dict[str, object], code: str, values: dict[str, object]
 ) -> None:
     with refused(code, LinkwrightError, **values):
         export(forces, tmp_path / name, **options)  # type: ignore[arg-type]

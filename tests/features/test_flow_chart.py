@@ -155,11 +155,7 @@ def _require_clear(found: Chart) -> None:
                 continue
             for share in (0.1, 0.4, 0.7):
                 x, y = a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])
-                inside = [
-                    box
-                    for box in boxes
-                    if box[0] + 0.1 < x < box[2] - 0.1 and box[1] + 0.1 < y < box[3] - 0.1
-                ]
+                inside = [box for box in boxes if box[0] + 0.1 < x < box[2] - 0.1 and box[1] + 0.1 < y < box[3] - 0.1]
                 assert not inside, (line, inside)
     counted = Counter(found.letters)
     assert set(counted.values()) <= {2}, counted

@@ -90,9 +90,7 @@ def _read(cell: ElementTree.Element, body: ElementTree.Element) -> Drawn:
         (_, name), *cells = sorted(row)
         if cells and all(re.fullmatch(r"-?[\d.]+", text) for _, text in cells):
             values = [float(text) for _, text in cells]
-            read.rows[name] = [
-                v * (1e3 if kilo and len(values) > 1 and k < 3 else 1.0) for k, v in enumerate(values)
-            ]
+            read.rows[name] = [v * (1e3 if kilo and len(values) > 1 and k < 3 else 1.0) for k, v in enumerate(values)]
     return read
 
 
@@ -103,11 +101,7 @@ def _places(data: str) -> np.ndarray:
 def vectors(body: Drawn) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
     """Names, feet (m) and forces (N) of the arrows, read off with the scales; y up."""
     for name, (foot, point) in body.arrows.items():
-        yield (
-            name,
-            foot * (1, -1) * MILLIMETRE * body.lengths,
-            (point - foot) * (1, -1) * MILLIMETRE * body.newtons,
-        )
+        yield (name, foot * (1, -1) * MILLIMETRE * body.lengths, (point - foot) * (1, -1) * MILLIMETRE * body.newtons)
 
 
 def require_balance(body: Drawn) -> None:
@@ -203,10 +197,7 @@ def require_apart(svg: str) -> None:
         texts = [each for each in body.iter(f"{SVG}text") if "name" in each.get("class", "")]
         boxes = []
         for each in texts:
-            size, low = (
-                float(each.get("font-size", "0")),
-                "".join(t.text or "" for t in each.iter(f"{SVG}tspan")),
-            )
+            size, low = (float(each.get("font-size", "0")), "".join(t.text or "" for t in each.iter(f"{SVG}tspan")))
             x, y = float(each.get("x", "0")), float(each.get("y", "0"))
             half = 0.25 * size * (len("".join(each.itertext())) - 0.3 * len(low))
             boxes.append((x - half, y - 0.7 * size, x + half, y))

@@ -134,10 +134,7 @@ def test_both_jumps_of_a_saw_are_named() -> None:
 def found(**changes: object) -> FoundProgram:
     given = {
         "points": ((radians(90), 0.02), (radians(120), 0.015)),
-        "windows": (
-            Window(radians(150), radians(230), 0.0, 0.0),
-            Window(radians(250), radians(300), 0.005, 0.006),
-        ),
+        "windows": (Window(radians(150), radians(230), 0.0, 0.0), Window(radians(250), radians(300), 0.005, 0.006)),
         "limits": (("jerk", 5.0),),
     }
     return FoundProgram(**{**given, **changes})  # type: ignore[arg-type]
@@ -162,8 +159,7 @@ def test_what_a_binding_demand_is_worth_is_its_slope() -> None:
     dwell = (Window(radians(150), radians(230), 0.0, 0.0),)
     least = found(pieces=48, windows=dwell, limits=(), minimize="jerk").peak
     base, eased = (
-        found(pieces=48, windows=dwell, limits=(("jerk", limit),))
-        for limit in (1.1 * least, 1.1 * least + 1e-4)
+        found(pieces=48, windows=dwell, limits=(("jerk", limit),)) for limit in (1.1 * least, 1.1 * least + 1e-4)
     )
     (worth,) = [b.worth for b in base.binding if "jerk" in b.what]
 
@@ -175,10 +171,7 @@ def test_what_a_binding_demand_is_worth_is_its_slope() -> None:
 def test_no_other_motion_of_the_known_laws_is_as_smooth() -> None:
     """Rise 10 mm over 90°, dwell 90°, fall, dwell: the least acceleration lies between 4 h/β² and the best law's."""
     program = FoundProgram(
-        windows=(
-            Window(radians(90), radians(180), 0.01, 0.01),
-            Window(radians(270), radians(360), 0.0, 0.0),
-        ),
+        windows=(Window(radians(90), radians(180), 0.01, 0.01), Window(radians(270), radians(360), 0.0, 0.0)),
         pieces=240,
     )
     least = 4 * 0.01 / radians(90) ** 2

@@ -145,16 +145,12 @@ def test_a_ramp_over_a_stroke(speed: str) -> None:
     mechanism = slider(f"kind: force, on: piston, at: B, direction: 0 deg, {phase}", speed)
     at = np.radians([170.0, 180, 190, 270, 350, 360, 370, 541]) * (1 if speed[0] == "1" else -1)
     forces = lw.solve_forces(lw.solve_motion(mechanism, at=at))
-    np.testing.assert_allclose(
-        forces.load("work").force[:, 0], [0, 0, 1, 9, 17, 18, 0, 0.1], rtol=1e-9, atol=1e-9
-    )
+    np.testing.assert_allclose(forces.load("work").force[:, 0], [0, 0, 1, 9, 17, 18, 0, 0.1], rtol=1e-9, atol=1e-9)
 
 
 def test_a_spring_from_crank_to_frame() -> None:
     """T = dE/dθ with E = k (L - L0)²/2 + F0 (L - L0) and the distance L from A to R."""
-    got = torque(
-        slider("kind: spring, between: [crank.A, R], stiffness: 40 N/m, free_length: 1.5 m, preload: 7 N")
-    )
+    got = torque(slider("kind: spring, between: [crank.A, R], stiffness: 40 N/m, free_length: 1.5 m, preload: 7 N"))
     distance = np.hypot(np.cos(THETA) + 2, np.sin(THETA) - 0.5)
     rate = (-2 * np.sin(THETA) - 0.5 * np.cos(THETA)) / distance
     np.testing.assert_allclose(got, (40 * (distance - 1.5) + 7) * rate, rtol=1e-9, atol=1e-9)
@@ -240,9 +236,7 @@ def test_limits_are_those_of_the_whole_turn() -> None:
     load = "kind: torque, on: crank, ramp: [1 N·m, 5 N·m], phase: {of: rocker, from: max, to: min}"
     whole = lw.solve_forces(lw.solve_motion(crank_rocker(load), steps=72)).input_torque
     part = loads(
-        CRANK_ROCKER.replace("LOAD", f"{{{load}}}").replace(
-            "loads:", "cycle: {from: 0 deg, to: 60 deg}\nloads:"
-        )
+        CRANK_ROCKER.replace("LOAD", f"{{{load}}}").replace("loads:", "cycle: {from: 0 deg, to: 60 deg}\nloads:")
     )
     some = lw.solve_forces(lw.solve_motion(part, steps=12)).input_torque
     np.testing.assert_allclose(some, whole[:13], rtol=1e-9, atol=1e-9)

@@ -53,12 +53,7 @@ def crank_angle(before: float) -> float:
 
 
 FULL = "direction: 180 deg, magnitude: 1 kN, phase: {of: guide, from: min, to: max"
-FREE_STARTS = [
-    ("0.05", 0.095, 0.005),
-    ("5 mm", 0.095, 0.005),
-    ("[0.2, 10 mm]", 0.08, 0.01),
-    ("[0, 0.1]", 0.1, 0.01),
-]
+FREE_STARTS = [("0.05", 0.095, 0.005), ("5 mm", 0.095, 0.005), ("[0.2, 10 mm]", 0.08, 0.01), ("[0, 0.1]", 0.1, 0.01)]
 
 
 @pytest.mark.parametrize(("last", "way"), [("10 mm", 0.01), ("0.1", 0.01), ("0.25", 0.025), ("100 mm", 0.1)])
@@ -103,9 +98,7 @@ def test_a_ramp_over_a_part_grows_with_the_way() -> None:
 def test_an_angle_takes_shares_and_angles() -> None:
     """The rod swings ± asin(r/l); its last 5° before its largest angle."""
     widest = math.degrees(math.asin(R / ROD))
-    angle, load = pressed(
-        "direction: 180 deg, magnitude: 1 kN, phase: {of: rod, from: min, to: max, last: 5 deg}"
-    )
+    angle, load = pressed("direction: 180 deg, magnitude: 1 kN, phase: {of: rod, from: min, to: max, last: 5 deg}")
     rod = -np.degrees(np.arcsin(R / ROD * np.sin(np.radians(angle))))
     inside = (rod > widest - 5 + 1e-6) & (angle < 270 - 1e-6) & (angle > 90)
     np.testing.assert_allclose(load[inside], -1000, rtol=1e-9)
@@ -114,9 +107,7 @@ def test_an_angle_takes_shares_and_angles() -> None:
 
 
 def test_more_than_the_stroke_is_refused_with_its_length() -> None:
-    with refused(
-        "loads.part_too_long", name="press", part="last", amounts="120 mm", stroke="100 mm", output="guide"
-    ):
+    with refused("loads.part_too_long", name="press", part="last", amounts="120 mm", stroke="100 mm", output="guide"):
         pressed(f"{FULL}, last: 120 mm}}")
     with refused("loads.part_too_long", part="free", amounts="60 mm + 50 mm"):
         pressed(f"{FULL}, free: [60 mm, 0.5]}}")

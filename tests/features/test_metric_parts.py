@@ -37,9 +37,13 @@ def test_summaries_of_angles_and_places(output: str, forces: bool) -> None:
     analysis = Analysis.of(store.forces("crank_rocker", 90) if forces else motion)
     values, inputs = sampled(output)
     exact = {
-        "max": values.max(), "min": values.min(), "range": np.ptp(values), "peak": np.abs(values).max(),
-        "mean": values.mean(), "rms": np.sqrt((values**2).mean()),
-    }  # fmt: skip
+        "max": values.max(),
+        "min": values.min(),
+        "range": np.ptp(values),
+        "peak": np.abs(values).max(),
+        "mean": values.mean(),
+        "rms": np.sqrt((values**2).mean()),
+    }
     for kind, value in exact.items():
         part = analysis.part(Summary(output, kind))
         assert part.value == pytest.approx(value, rel=1e-6, abs=1e-7), kind
@@ -73,9 +77,7 @@ def test_samples_of_inputs_of_ones_own_are_what_is_there() -> None:
     motion = lw.solve_motion(MACHINE, at=at)
     analysis = Analysis.of(motion)
     x = motion.point("coupler.P").position[:, 0]
-    assert analysis.part(Summary("coupler.P.x", "mean")).value == pytest.approx(
-        np.trapezoid(x, at) / 2.6, rel=2e-2
-    )
+    assert analysis.part(Summary("coupler.P.x", "mean")).value == pytest.approx(np.trapezoid(x, at) / 2.6, rel=2e-2)
     low, high = analysis.part(Summary("coupler.P.x", "min")), analysis.part(Summary("coupler.P.x", "max"))
     assert 0.3 <= low.input <= 2.9 + 1e-12 and 0.3 <= high.input <= 2.9 + 1e-12
     assert low.value <= x.min() + 1e-12 and high.value >= x.max() - 1e-12
@@ -84,9 +86,7 @@ def test_samples_of_inputs_of_ones_own_are_what_is_there() -> None:
 
 def test_a_curve_runs_the_other_way_round_with_its_area_negative() -> None:
     forth, back = (
-        coupler_curve(
-            lw.solve_motion(MACHINE.with_dimensions({"driver.speed": speed}), steps=120), "coupler.P"
-        )
+        coupler_curve(lw.solve_motion(MACHINE.with_dimensions({"driver.speed": speed}), steps=120), "coupler.P")
         for speed in (10.0, -10.0)
     )
     assert forth.length == pytest.approx(back.length, rel=1e-9)
@@ -218,8 +218,7 @@ TABLE = "table: {over: input, x: [0.2 m, 0.4 m, 0.6 m], y: [0 N·m, 60 N·m, 0 N
 
 @pytest.mark.parametrize("load", [PHASE, TABLE])
 @pytest.mark.parametrize(
-    "drive",
-    ["speed: 0.1 m/s, start: 0.3 m", "speed: -0.1 m/s, start: 0.5 m", 'position: "0.3 m + 0.1 m/s*t"'],
+    "drive", ["speed: 0.1 m/s, start: 0.3 m", "speed: -0.1 m/s, start: 0.5 m", 'position: "0.3 m + 0.1 m/s*t"']
 )
 def test_loads_that_begin_and_bend_on_the_way_of_a_cylinder(load: str, drive: str) -> None:
     """From 0.3 to 0.5 m: cos φ = (x² + r² - l²)/(2 x r), F = -M dφ/dx; integrals between the bends."""
@@ -232,9 +231,7 @@ def test_loads_that_begin_and_bend_on_the_way_of_a_cylinder(load: str, drive: st
         return -moment * rate
 
     pieces = [(0.35, 0.45)] if load == PHASE else [(0.3, 0.4), (0.4, 0.5)]
-    work, square = (
-        sum(quad(lambda x, p=power: force(x) ** p, *piece)[0] for piece in pieces) for power in (1, 2)
-    )
+    work, square = (sum(quad(lambda x, p=power: force(x) ** p, *piece)[0] for piece in pieces) for power in (1, 2))
     largest = max(abs(force(x)) for piece in pieces for x in np.linspace(*piece, 2001))
     sense, within = -1.0 if "-0.1" in drive else 1.0, 1e-7 if "position" in drive else 1e-11
     assert found.value("peak_input_torque") == pytest.approx(largest, rel=1e-6)

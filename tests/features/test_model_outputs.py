@@ -74,9 +74,14 @@ def test_rates_are_derivatives_in_time(columns: dict[str, np.ndarray]) -> None:
     """Against differences of order 6, as far as these are exact."""
     time = columns["time [s]"]
     step, inside = time[1] - time[0], slice(3, -3)
-    pairs = [("gap [m]", "gap.rate [m/s]"), ("gap.rate [m/s]", "gap.second_rate [m/s²]"),
-             ("twice.rate [m/s]", "twice.second_rate [m/s²]"), ("slip [m/s]", "slip.rate [m/s²]"),
-             ("place [m]", "place.rate [m/s]"), ("place.rate [m/s]", "place.second_rate [m/s²]")]  # fmt: skip
+    pairs = [
+        ("gap [m]", "gap.rate [m/s]"),
+        ("gap.rate [m/s]", "gap.second_rate [m/s²]"),
+        ("twice.rate [m/s]", "twice.second_rate [m/s²]"),
+        ("slip [m/s]", "slip.rate [m/s²]"),
+        ("place [m]", "place.rate [m/s]"),
+        ("place.rate [m/s]", "place.second_rate [m/s²]"),
+    ]
     for value, rate in pairs:
         y = columns[value]
         d = (45 * (y[4:-2] - y[2:-4]) - 9 * (y[5:-1] - y[1:-5]) + (y[6:] - y[:-6])) / (60 * step)
@@ -94,9 +99,11 @@ def test_many_designs_have_the_values_of_single_machines(machine: lw.Mechanism) 
     names = ["gap", "gap.rate", "gap.second_rate", "twice", "slip.rate", "place.second_rate", "leap"]
     lengths = np.array([0.12, 0.125])
     found = lw.sweep(
-        machine, {"coupler.length": lengths},
-        outputs=[f"{name} {kind}" for name in names for kind in ("max", "min", "rms")], steps=180,
-    )  # fmt: skip
+        machine,
+        {"coupler.length": lengths},
+        outputs=[f"{name} {kind}" for name in names for kind in ("max", "min", "rms")],
+        steps=180,
+    )
     for k, length in enumerate(lengths):
         motion = lw.solve_motion(machine.with_dimensions({"coupler.length": length}), steps=180)
         own = {name.partition(" [")[0]: values for name, values in motion.columns().items()}
@@ -191,18 +198,7 @@ def test_the_bed_of_the_press_is_in_step_with_its_cylinder() -> None:
 
 def test_the_bed_that_drives_finds_the_printed_crank_angles() -> None:
     """ψ of the flat-bed press at ten displacements of its slider, printed to 1e-4 degrees."""
-    printed = [
-        133.3740,
-        140.7340,
-        147.9701,
-        155.2380,
-        162.6878,
-        170.4900,
-        178.8701,
-        188.1747,
-        199.0442,
-        213.0665,
-    ]
+    printed = [133.3740, 140.7340, 147.9701, 155.2380, 162.6878, 170.4900, 178.8701, 188.1747, 199.0442, 213.0665]
     inverted = lw.loads("""
 format: 1
 name: Slider-crank driven from its slider

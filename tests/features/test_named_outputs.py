@@ -21,9 +21,7 @@ def designs(machine: str) -> list[lw.Mechanism]:
     """The machine as it is, and another one."""
     text, _, address = TEXTS[machine]
     mechanism = lw.loads(text)
-    return [
-        mechanism.with_dimensions({address: share * mechanism.dimension(address)}) for share in (1.0, 1.01)
-    ]
+    return [mechanism.with_dimensions({address: share * mechanism.dimension(address)}) for share in (1.0, 1.01)]
 
 
 @cache
@@ -38,9 +36,7 @@ def swept() -> dict[str, lw.Sweep]:
     found = {}
     for machine, (text, steps, address) in TEXTS.items():
         mechanism = lw.loads(text)
-        outputs = [
-            f"{name} {kind}" for which, name, _ in WORDS if which == machine for kind in ("min", "max")
-        ]
+        outputs = [f"{name} {kind}" for which, name, _ in WORDS if which == machine for kind in ("min", "max")]
         lengths = mechanism.dimension(address) * np.array([1.0, 1.01])
         found[machine] = lw.sweep(mechanism, {address: lengths}, outputs=outputs, steps=steps)
     return found

@@ -79,9 +79,7 @@ def test_a_function_s_own_callback_goes_before_the_surrounding_one() -> None:
     crusher = store.machine("jaw_crusher_sixbar")
     vary = {"pitman.length": LENGTHS[:20]}
     _, calls = told(
-        lambda: lw.sweep(
-            crusher, vary, outputs=["jaw.angle range"], progress=lambda done, _: own.append(done)
-        )
+        lambda: lw.sweep(crusher, vary, outputs=["jaw.angle range"], progress=lambda done, _: own.append(done))
     )
     assert own[-1] == 20 and not calls
 

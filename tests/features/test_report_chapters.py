@@ -111,8 +111,7 @@ def test_the_conclusion_says_which_limits_are_not_kept() -> None:
 def test_the_change_that_is_proposed_does_what_is_said() -> None:
     text = page("gallery:swing_conveyor", "conclusion")
     found = re.search(
-        r"lengths (\S+) has most influence on the smallest transmission angle: 1 % (\w+).*?about ([\d.]+)",
-        text,
+        r"lengths (\S+) has most influence on the smallest transmission angle: 1 % (\w+).*?about ([\d.]+)", text
     )
     assert found is not None
     machine = store.machine("swing_conveyor")

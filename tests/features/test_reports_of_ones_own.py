@@ -48,10 +48,14 @@ $$ \\begin{bmatrix} 1 & 2 \\\\ 3 & 4 \\end{bmatrix} x = b $$ (eq)
 OWN: dict[str, Any] = {
     "title": "Conveyor",
     "references": [{"key": "a", "text": "Book *A*"}, {"key": "b", "text": "Book B[M]"}, "Book C"],
-    "sections": [{"title": "Requirements", "text": TEXT}, "structure", {"title": "Thanks", "text": "All."},
-                 "references"],
+    "sections": [
+        {"title": "Requirements", "text": TEXT},
+        "structure",
+        {"title": "Thanks", "text": "All."},
+        "references",
+    ],
     "zh": {"title": "运输机", "sections": [{"title": "设计要求", "text": "要求。"}, "structure"]},
-}  # fmt: skip
+}
 
 
 def machine(report: dict[str, Any]) -> lw.Mechanism:
@@ -87,13 +91,22 @@ def text_of(page: bytes) -> str:
 def test_pages_have_every_element(made: lw.Report) -> None:
     page = made.content(".html").decode()
     assert not made.missing
-    for element in ("<strong>trough</strong>", "<em>coal</em>", "<sup>1</sup>", '<a href="https://example.org/?a=1',
-                    "<ol", "<ul>", "<blockquote>", "<code>code</code>", "<pre>", "<mtable", "<img",
-                    "<em>A</em>"):  # fmt: skip
+    for element in (
+        "<strong>trough</strong>",
+        "<em>coal</em>",
+        "<sup>1</sup>",
+        '<a href="https://example.org/?a=1',
+        "<ol",
+        "<ul>",
+        "<blockquote>",
+        "<code>code</code>",
+        "<pre>",
+        "<mtable",
+        "<img",
+        "<em>A</em>",
+    ):
         assert element in page, element
-    heads = [
-        " ".join(text_of(f"<body>{each}".encode()).split()[1:]) for each in re.findall("<h2.*?</h2>", page)
-    ]
+    heads = [" ".join(text_of(f"<body>{each}".encode()).split()[1:]) for each in re.findall("<h2.*?</h2>", page)]
     assert heads[1:] == ["Requirements", "Structure analysis", "Thanks", "References"]
 
 
@@ -115,17 +128,14 @@ def test_word_has_every_element(made: lw.Report) -> None:
     assert looks["trough"][0] and looks["coal"][1] and looks["1"][2]
     links = first._p.xpath(".//w:hyperlink/@r:id")
     assert [file.part.rels[each].target_ref for each in links] == ["https://example.org/?a=1&b=2"]
-    levels = {
-        text: lines[text]._p.xpath(".//w:numPr/w:ilvl/@w:val") for text in ("first", "inner code", "second")
-    }
+    levels = {text: lines[text]._p.xpath(".//w:numPr/w:ilvl/@w:val") for text in ("first", "inner code", "second")}
     assert levels == {"first": ["0"], "inner code": ["1"], "second": ["0"]}
-    numbers = [
-        lines[text]._p.xpath(".//w:numPr/w:numId/@w:val") for text in ("first", "second", "inner code")
-    ]
+    numbers = [lines[text]._p.xpath(".//w:numPr/w:numId/@w:val") for text in ("first", "second", "inner code")]
     assert numbers[0] == numbers[1] != numbers[2]
     assert [each.text for each in file.paragraphs if each.style.name == "Code"] == [
-        "for i in range(3):", "    print(i)",
-    ]  # fmt: skip
+        "for i in range(3):",
+        "    print(i)",
+    ]
     assert sum(1 for _ in file.element.iter(f"{{{MATH}}}mr")) == 2
     assert [cell.text for cell in file.tables[0].rows[1].cells][:1] == ["a"]
     assert len(file.inline_shapes) >= 1 and "[1]\tBook B[M]" in lines
@@ -139,13 +149,22 @@ MATH = "http://schemas.openxmlformats.org/officeDocument/2006/math"
 @pytest.mark.skipif(shutil.which("pdftotext") is None, reason="pdftotext is not there")
 def test_the_pdf_has_every_element(made: lw.Report, tmp_path: Path) -> None:
     found = subprocess.run(
-        ["pdftotext", "-layout", made.save(tmp_path / "a.pdf"), "-"],
-        capture_output=True,
-        text=True,
-        check=True,
+        ["pdftotext", "-layout", made.save(tmp_path / "a.pdf"), "-"], capture_output=True, text=True, check=True
     ).stdout
-    for text in ("The trough carries coal", "1. first", "• inner code", "2. second", "quoted", "A photograph",
-                 "Speeds", "for i in range(3):", "(1.1)", "[1]", "Book B[M]", "4 References"):  # fmt: skip
+    for text in (
+        "The trough carries coal",
+        "1. first",
+        "• inner code",
+        "2. second",
+        "quoted",
+        "A photograph",
+        "Speeds",
+        "for i in range(3):",
+        "(1.1)",
+        "[1]",
+        "Book B[M]",
+        "4 References",
+    ):
         assert text in found, text
 
 
@@ -176,8 +195,17 @@ def test_chapters_of_several_machines_stand_where_they_belong() -> None:
     first = machine({"sections": [chapter[0], "structure", chapter[1], "limits", "references", chapter[2]]})
     second = machine({"sections": ["structure", {"title": "Of the second", "text": "x"}]})
     shown = text_of(lw.report([first, second]).content(".html"))
-    contents = ["1 Before", "2.1 Structure", "2.2 Between", "2.3 Limit", "3.1 Structure", "3.2 Of the second",
-                "3.3 Limit", "4 References", "5 After"]  # fmt: skip
+    contents = [
+        "1 Before",
+        "2.1 Structure",
+        "2.2 Between",
+        "2.3 Limit",
+        "3.1 Structure",
+        "3.2 Of the second",
+        "3.3 Limit",
+        "4 References",
+        "5 After",
+    ]
     places = [shown.index(each) for each in contents]
     assert places == sorted(places)
 
@@ -214,9 +242,7 @@ def test_calculations_have_own_chapters_covers_and_sources(tmp_path: Path, pictu
     titles = ["1 Requirements", "2 Belt one", "3 Belt two", "Of the second", "4 References", "5 Thanks"]
     places = [shown.index(each) for each in titles]
     assert places == sorted(places)
-    last = text_of(
-        lw.report([str(first), str(second)], sections=["references", "calculations"]).content(".html")
-    )
+    last = text_of(lw.report([str(first), str(second)], sections=["references", "calculations"]).content(".html"))
     assert last.index("1 References") < last.index("2 Belt one") and "Own words" not in last
     first.write_text(f"{BELT}  sections: [{{title: a, text: '![x](none.png)'}}]\n", encoding="utf-8")
     with faulty("wrong-picture", "report.sections.0.text"):
@@ -225,30 +251,33 @@ def test_calculations_have_own_chapters_covers_and_sources(tmp_path: Path, pictu
     assert code == 1 and [each.key for each in findings] == ["report.sections.0.text"]
 
 
-COVER = {"school": "Example University", "class": "ME 23-1", "student_number": 2023, "adviser": "Zhang",
-         "logo": "photo.png", "fields": {"Mark": None}}  # fmt: skip
+COVER = {
+    "school": "Example University",
+    "class": "ME 23-1",
+    "student_number": 2023,
+    "adviser": "Zhang",
+    "logo": "photo.png",
+    "fields": {"Mark": None},
+}
 
 
-@pytest.mark.parametrize(("language", "words"), [("en", ("Course design report", "Adviser", "Student number")),
-                                                 ("zh", ("课程设计说明书", "指导教师", "学号"))])  # fmt: skip
+@pytest.mark.parametrize(
+    ("language", "words"),
+    [("en", ("Course design report", "Adviser", "Student number")), ("zh", ("课程设计说明书", "指导教师", "学号"))],
+)
 def test_the_cover_is_a_page_before_all_others(language: str, words: tuple[str, ...], folder: Path) -> None:
-    own = {"title": "Conveyor", "author": "Wang", "date": "June", "course": "Machines", "cover": COVER,
-           "sections": ["structure"]}  # fmt: skip
+    own = {
+        "title": "Conveyor",
+        "author": "Wang",
+        "date": "June",
+        "course": "Machines",
+        "cover": COVER,
+        "sections": ["structure"],
+    }
     found = lw.report(machine(own), language=language, folder=folder)
     page = found.content(".html").decode()
     cover = text_of(page.partition("<h2")[0].encode())
-    given = (
-        "Example University",
-        "Machines",
-        "Conveyor",
-        "ME 23-1",
-        "Wang",
-        "2023",
-        "Zhang",
-        "Mark",
-        "June",
-        *words,
-    )
+    given = ("Example University", "Machines", "Conveyor", "ME 23-1", "Wang", "2023", "Zhang", "Mark", "June", *words)
     for text in given:
         assert text in cover, text
     file = docx.Document(io.BytesIO(found.content(".docx")))
@@ -292,8 +321,11 @@ def test_a_report_without_sources_has_no_chapter_for_them() -> None:
         ({"sections": [{"titel": "a", "title": "a", "text": ""}]}, "unknown-key", "sections.0.titel"),
         ({"sections": ["strucutre"]}, "no-section", "sections.0"),
         ({"sections": [{"title": "a", "text": "![x](none.png)"}]}, "wrong-picture", "sections.0.text"),
-        ({"sections": [{"title": "a", "text": "[@b]"}], "references": [{"key": "a", "text": "A"}]}, "no-source",
-         "sections.0.text"),
+        (
+            {"sections": [{"title": "a", "text": "[@b]"}], "references": [{"key": "a", "text": "A"}]},
+            "no-source",
+            "sections.0.text",
+        ),
         ({"text": {"task": "![x](/etc/passwd)"}}, "wrong-picture", "text.task"),
         ({"cover": {"logo": "none.svg"}}, "wrong-picture", "cover.logo"),
         ({"cover": {"scool": "x"}}, "unknown-key", "cover.scool"),
@@ -304,7 +336,7 @@ def test_a_report_without_sources_has_no_chapter_for_them() -> None:
         ({"references": [{"key": "a", "text": "A"}, {"key": "a", "text": "B"}]}, "source-twice", "references.1"),
         ({"zh": {"cover": {"logo": "none.svg"}}}, "wrong-picture", "zh.cover.logo"),
     ],
-)  # fmt: skip
+)
 def test_what_makes_no_sense_is_refused_at_its_place(own: dict[str, Any], code: str, key: str) -> None:
     with faulty(code, f"report.{key}"):
         lw.report(machine(own))
@@ -322,12 +354,11 @@ def test_check_tells_all_of_it_at_once(tmp_path: Path) -> None:
 
 
 def test_what_leads_nowhere_is_told(folder: Path) -> None:
-    found = lw.report(
-        machine({"text": {"structure": "[[nowhere]] and [a](#neither)"}}), sections=["structure"]
-    )
+    found = lw.report(machine({"text": {"structure": "[[nowhere]] and [a](#neither)"}}), sections=["structure"])
     assert [[name for name in ("nowhere", "neither") if name in each] for each in found.missing] == [
-        ["neither"], ["nowhere"],
-    ]  # fmt: skip
+        ["neither"],
+        ["nowhere"],
+    ]
     cited = {"references": [{"key": "a", "text": "A"}], "text": {"structure": "[@a]"}}
     alone = lw.report(machine(cited), sections=["structure"])
     assert len(alone.missing) == 1 and "[1]" in text_of(alone.content(".html"))

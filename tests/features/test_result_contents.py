@@ -117,9 +117,7 @@ def assert_through(drawn: np.ndarray, values: np.ndarray) -> None:
 
 def test_the_diagram_of_joint_forces_draws_one_force_of_every_joint_and_all_of_a_pin_of_three() -> None:
     forces = store.forces("jaw_crusher_sixbar", 60)
-    found = {
-        name: values for name, values in curves(lw.plot(forces, "reactions")).items() if values is not None
-    }
+    found = {name: values for name, values in curves(lw.plot(forces, "reactions")).items() if values is not None}
     expected = {"O1": ("O1", "crank"), "A": ("A", "pitman"), "O3": ("O3", "rocker"), "O5": ("O5", "jaw")}
     expected |= {f"B ({link})": ("B", link) for link in ("pitman", "rocker", "toggle")} | {"C": ("C", "jaw")}
     assert {name for name in found if "limit" not in name} == set(expected)

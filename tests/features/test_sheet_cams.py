@@ -16,9 +16,15 @@ from tests.refusals import refused
 import linkwright as lw
 
 CAMS = (
-    "cam_barrel", "cam_flat_face", "cam_found", "cam_lecture", "cam_oscillating", "cam_press", "cam_roller",
+    "cam_barrel",
+    "cam_flat_face",
+    "cam_found",
+    "cam_lecture",
+    "cam_oscillating",
+    "cam_press",
+    "cam_roller",
     "cam_shaper",
-)  # fmt: skip
+)
 #: Prime circle, lift (mm) and angles of the press's cam; the scale that A2 has room for.
 PRIME, LIFT, RISE, DWELL, FALL, TIMES = 40.426513, 17.0, 55.0, 25.0, 85.0, 2.0
 
@@ -99,10 +105,12 @@ def test_the_profile_is_the_envelope_of_the_rollers() -> None:
 def test_pivots_of_an_oscillating_follower_lie_on_their_circle_a_length_of_arm_from_their_rollers() -> None:
     sheet = drawn("cam_shaper")
     ends = [
-        each.points for each in sheet.picture.items
-        if len(getattr(each, "points", ())) == 2 and not each.closed
+        each.points
+        for each in sheet.picture.items
+        if len(getattr(each, "points", ())) == 2
+        and not each.closed
         and abs(np.hypot(*np.diff(each.points, axis=0)[0]) - 125.0) < 1e-3
-    ]  # fmt: skip
+    ]
     assert len(ends) == 15  # the one at 0 twice, thin and thick
     centre = np.mean(
         [item.at for item in sheet.picture.items if abs(getattr(item, "radius", 0) - 38.6826) < 1e-3], axis=0
@@ -122,9 +130,7 @@ def test_the_table_of_points_has_the_closed_form() -> None:
 
 
 def test_both_base_circles_and_the_scale_are_told() -> None:
-    english, chinese = (
-        " ".join(text for text, _ in boxes(drawn("cam_press", each))) for each in ("en", "zh")
-    )
+    english, chinese = (" ".join(text for text, _ in boxes(drawn("cam_press", each))) for each in ("en", "zh"))
     for text in (english, chinese):
         assert "40.427 mm" in text and "32.427 mm" in text and "2:1" in text and "0.0005" in text
     assert "理论廓线" in chinese and "实际廓线" in chinese

@@ -18,10 +18,16 @@ import linkwright as lw
 
 #: Width and height of the frame's inside, mm: GB/T 14689 bound, not bound; ISO 5457.
 FRAMES = {
-    ("A0", "gb", True): (1154, 821), ("A1", "gb", True): (806, 574), ("A2", "gb", True): (559, 400),
-    ("A3", "gb", True): (390, 287), ("A1", "gb", False): (801, 554), ("A2", "gb", False): (574, 400),
-    ("A1", "iso", True): (811, 574), ("A4", "gb", True): (180, 287), ("A4", "iso", True): (180, 277),
-}  # fmt: skip
+    ("A0", "gb", True): (1154, 821),
+    ("A1", "gb", True): (806, 574),
+    ("A2", "gb", True): (559, 400),
+    ("A3", "gb", True): (390, 287),
+    ("A1", "gb", False): (801, 554),
+    ("A2", "gb", False): (574, 400),
+    ("A1", "iso", True): (811, 574),
+    ("A4", "gb", True): (180, 287),
+    ("A4", "iso", True): (180, 277),
+}
 ROUND = (1.0, 2.0, 2.5, 4.0, 5.0)
 
 
@@ -97,10 +103,7 @@ def tips(found: lw.Sheet) -> np.ndarray:
 def test_the_velocity_polygon_is_true_to_scale() -> None:
     """Velocities at 100° from the gallery's independent solution: e 540 mm × ω of the lever, f that of the ram."""
     found = sheet(
-        "shaper_quick_return",
-        positions=["100 deg"],
-        only=["velocity_1"],
-        panels={"velocity_1": {"scale": 0.01}},
+        "shaper_quick_return", positions=["100 deg"], only=["velocity_1"], panels={"velocity_1": {"scale": 0.01}}
     )
     assert any("0.01 (m/s)/mm" in text for text in texts(found))
     ends = tips(found)
@@ -110,9 +113,7 @@ def test_the_velocity_polygon_is_true_to_scale() -> None:
 
 
 def _poles(found: lw.Sheet) -> list[np.ndarray]:
-    return [
-        each.points[0] for each in drawn(found, "Line") if each.style == "thick" and len(each.points) == 2
-    ]
+    return [each.points[0] for each in drawn(found, "Line") if each.style == "thick" and len(each.points) == 2]
 
 
 def test_the_force_polygon_is_true_to_scale() -> None:
@@ -136,9 +137,7 @@ def test_the_mechanism_is_to_a_standard_scale() -> None:
 
 @pytest.mark.parametrize("name", ["shaper_quick_return", "jaw_crusher_sixbar", "wedge"])
 def test_scales_are_preferred_numbers(name: str) -> None:
-    scales = [
-        float(number) for text in texts(sheet(name)) for number in re.findall(r"μ\S+ = ([\d.e+-]+) ", text)
-    ]
+    scales = [float(number) for text in texts(sheet(name)) for number in re.findall(r"μ\S+ = ([\d.e+-]+) ", text)]
     assert len(scales) > 4
     for each in scales:
         mantissa = each / 10 ** math.floor(math.log10(each) + 1e-9)
@@ -185,9 +184,15 @@ def test_small_sheets_say_what_has_no_room() -> None:
 
 def test_the_title_block_holds_what_the_file_says() -> None:
     given = {
-        "school": "Harbour College", "student": "A. Reader", "adviser": "B. Teacher", "number": "MT-01",
-        "date": "2026-11-28", "sheet": 1, "sheets": 2, "zh": {"student": "李明", "school": "某大学"},
-    }  # fmt: skip
+        "school": "Harbour College",
+        "student": "A. Reader",
+        "adviser": "B. Teacher",
+        "number": "MT-01",
+        "date": "2026-11-28",
+        "sheet": 1,
+        "sheets": 2,
+        "zh": {"student": "李明", "school": "某大学"},
+    }
     english = texts(sheet("slider_crank_offset", only=["mechanism"], **given))
     assert {"Harbour College", "A. Reader", "B. Teacher", "MT-01", "2026-11-28", "1/2"} <= set(english)
     chinese = texts(sheet("slider_crank_offset", "zh", only=["mechanism"], **given))
@@ -244,9 +249,7 @@ def test_the_dxf_is_sound_and_in_millimetres() -> None:
     assert drawing.layers.get("double_chain").dxf.linetype != "CONTINUOUS"
     space = drawing.modelspace()
     assert len(space.query("TEXT MTEXT")) == len(found.texts)
-    every_place = np.array(
-        [point for line in space.query("LINE") for point in (line.dxf.start, line.dxf.end)]
-    )
+    every_place = np.array([point for line in space.query("LINE") for point in (line.dxf.start, line.dxf.end)])
     assert every_place[:, :2].min() >= -1e-6
     assert (every_place[:, :2].max(axis=0) <= (841.0 + 1e-6, 594.0 + 1e-6)).all()
 

@@ -30,9 +30,7 @@ def test_both_crushers_by_one_command(capsys: pytest.CaptureFixture[str]) -> Non
 def test_a_comparison_is_written_with_its_curves(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     table, curves = tmp_path / "table.csv", tmp_path / "curves.json"
     options = ["--metrics", "peak_input_torque", "travel", "--weights", "peak_input_torque=2"]
-    assert (
-        main(["compare", SIX, FOUR, *options, "--output", str(table), "--curves", str(curves), "--json"]) == 0
-    )
+    assert main(["compare", SIX, FOUR, *options, "--output", str(table), "--curves", str(curves), "--json"]) == 0
     data = json.loads(capsys.readouterr().out)
     rows = list(csv.reader(table.read_text().splitlines()))
     assert [row[0] for row in rows] == ["metric", "peak_input_torque [N·m]", "travel [rad]"]
@@ -45,15 +43,10 @@ def test_a_comparison_is_written_with_its_curves(tmp_path: Path, capsys: pytest.
 def test_a_study_by_one_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "study.csv"
     vary = ["--vary", "crank.length=40..60 mm:3", "rod.length=150, 200 mm"]
-    assert (
-        main(["study", "gallery:slider_crank_inline", *vary, "--metrics", "stroke", "--output", str(path)])
-        == 0
-    )
+    assert main(["study", "gallery:slider_crank_inline", *vary, "--metrics", "stroke", "--output", str(path)]) == 0
     assert [word for word in capsys.readouterr().out.split() if word == "6"] == ["6", "6"]
     rows = list(csv.DictReader(path.read_text().splitlines()))
-    assert [float(row["stroke [m]"]) for row in rows] == pytest.approx(
-        [0.08, 0.08, 0.1, 0.1, 0.12, 0.12], rel=1e-9
-    )
+    assert [float(row["stroke [m]"]) for row in rows] == pytest.approx([0.08, 0.08, 0.1, 0.1, 0.12, 0.12], rel=1e-9)
     assert {float(row["rod.length"]) for row in rows} == {0.15, 0.2}
 
 
@@ -79,15 +72,21 @@ def test_the_studys_designs_that_cannot_move_are_told(capsys: pytest.CaptureFixt
         (["compare", SIX, FOUR, "--metrics", "flywhel"], 2, "study.no_metric", {"offer": "flywheel"}),
         (["study", SIX], 2, "cli.missing", {"names": ("--vary",)}),
         (["study", SIX, "--vary", "pitman.length"], 2, "syntax", {"text": "pitman.length"}),
-        (["study", SIX, "--vary", "pitman.length=1 m", "pitman.length=2 m"], 2, "duplicate-key",
-         {"name": "pitman.length"}),
+        (
+            ["study", SIX, "--vary", "pitman.length=1 m", "pitman.length=2 m"],
+            2,
+            "duplicate-key",
+            {"name": "pitman.length"},
+        ),
         (["study", SIX, "--vary", "pitman.lenth=1 m"], 2, "study.no_dimension", {"offer": "pitman.length"}),
         (["study", SIX, "--vary", "pitman.length=20..30 m:3"], 1, "study.none_passes", {"count": 3}),
-        (["study", SIX, "--vary", "pitman.length=1.2 m", "--output", "study.txt"], 2, "cli.bad_suffix",
-         {"path": "study.txt", "endings": (".csv", ".json", ".xlsx", ".md", ".html")}),
+        (
+            ["study", SIX, "--vary", "pitman.length=1.2 m", "--output", "study.txt"],
+            2,
+            "cli.bad_suffix",
+            {"path": "study.txt", "endings": (".csv", ".json", ".xlsx", ".md", ".html")},
+        ),
     ],
-)  # fmt: skip
-def test_what_the_commands_refuse(
-    arguments: list[str], ends: int, code: str, values: dict[str, object]
-) -> None:
+)
+def test_what_the_commands_refuse(arguments: list[str], ends: int, code: str, values: dict[str, object]) -> None:
     is_refused(arguments, code, ends, **values)

@@ -50,9 +50,7 @@ def test_every_value_is_the_one_of_the_machine_solved_alone(crushers: Comparison
     for label, name, joint in ((SIX, "jaw_crusher_sixbar", "O5"), (FOUR, "jaw_crusher_fourbar", "O3")):
         forces = store.forces(name, 36_000)
         torque = forces.input_torque
-        assert crushers.value("rms_input_torque", label) == pytest.approx(
-            np.sqrt((torque**2).mean()), rel=1e-5
-        )
+        assert crushers.value("rms_input_torque", label) == pytest.approx(np.sqrt((torque**2).mean()), rel=1e-5)
         assert crushers.value("peak_input_torque", label) == pytest.approx(np.abs(torque).max(), rel=1e-4)
         pivot = np.hypot(*forces.reaction(joint, on="jaw").T)
         assert crushers.value("pivot_reaction", label) == pytest.approx(pivot.max(), rel=1e-4)
@@ -84,9 +82,7 @@ def test_the_ranking_is_the_mean_of_best_over_value(crushers: Comparison) -> Non
     assert "transmission_angle" in values and "travel" not in values
     scores = []
     for i in range(2):
-        shares = [
-            v[i] / max(v) if name == "transmission_angle" else min(v) / v[i] for name, v in values.items()
-        ]
+        shares = [v[i] / max(v) if name == "transmission_angle" else min(v) / v[i] for name, v in values.items()]
         scores.append(sum(shares) / len(shares))
     ranked = crushers.ranking
     assert [rank.score for rank in ranked] == pytest.approx(sorted(scores, reverse=True), rel=1e-12)
@@ -108,9 +104,7 @@ def test_the_evaluation_says_the_numbers_in_both_languages(crushers: Comparison)
         names = (in_language(each, language) for each in crushers.labels)
         for part in ("2.2635°", "59066", "1633.7 N·m", "580.71 N·m", "O5", "O3", *names):
             assert part in text, (language, part)
-        assert (
-            in_language(crushers.ranking[0].label, language) in crushers.evaluation(language).splitlines()[-2]
-        )
+        assert in_language(crushers.ranking[0].label, language) in crushers.evaluation(language).splitlines()[-2]
     chinese, english = (crushers.evaluation(language).splitlines()[:4] for language in ("zh", "en"))
     assert [sorted(numbers(line)) for line in chinese] == [sorted(numbers(line)) for line in english]
     assert all("\u4e00" <= line[0] <= "\u9fff" for line in chinese)
@@ -118,14 +112,7 @@ def test_the_evaluation_says_the_numbers_in_both_languages(crushers: Comparison)
 
 def test_curves_lie_over_each_other(crushers: Comparison) -> None:
     curves = {each.name: each for each in crushers.curves}
-    assert set(curves) == {
-        "travel",
-        "velocity",
-        "acceleration",
-        "pivot_reaction",
-        "hodograph",
-        "input_torque",
-    }
+    assert set(curves) == {"travel", "velocity", "acceleration", "pivot_reaction", "hodograph", "input_torque"}
     for curve in every(curves.values()):
         assert list(curve.lines) == [SIX, FOUR]
     passed, angle = curves["travel"].lines[SIX]
@@ -147,11 +134,7 @@ def test_outputs_are_named_per_machine() -> None:
     found = compare(
         ["gallery:slider_crank_inline", "gallery:slider_crank_offset"],
         metrics=["travel", "quick_return_ratio"],
-        output={
-            "slider_crank_inline": "piston",
-            "Slider-crank, offset": "slider",
-            "slider_crank_offset": "slider",
-        },
+        output={"slider_crank_inline": "piston", "Slider-crank, offset": "slider", "slider_crank_offset": "slider"},
     )
     assert found.value("travel", 0) == pytest.approx(0.1, rel=1e-9)
     assert found.value("travel", 1) == pytest.approx(0.39760610, abs=5e-9)
@@ -193,9 +176,7 @@ def test_alternatives_that_differ_in_load_or_speed_are_said_to_be_unlike() -> No
 def test_an_output_that_turns_through_is_said_to_travel_its_whole_turns() -> None:
     """20 to 40 teeth, one turn of the wheel in two of the pinion."""
     gears = store.machine("external_gear_pair")
-    fast = replace(gears, name="fast").with_dimensions(
-        {"driver.speed": 3.0 * gears.dimension("driver.speed")}
-    )
+    fast = replace(gears, name="fast").with_dimensions({"driver.speed": 3.0 * gears.dimension("driver.speed")})
     said = compare([gears, fast]).evaluation()
     assert said.count("360°") == 2
 
@@ -235,9 +216,7 @@ def test_the_evaluation_of_two_presses_is_what_the_closed_forms_say() -> None:
         work = 2e3 * 2 * r
         mean = work / (2 * np.pi)
         way = 10 * r * np.abs(np.sin(turn) + np.cos(turn) * np.tan(leaning)).max()
-        excess = np.concatenate(
-            [[0.0], np.cumsum((torque[1:] + torque[:-1]) / 2 - mean) * (turn[1] - turn[0])]
-        )
+        excess = np.concatenate([[0.0], np.cumsum((torque[1:] + torque[:-1]) / 2 - mean) * (turn[1] - turn[0])])
         energy = np.ptp(np.append(excess, excess[-1] - mean * np.pi))
         motion += [2e3 * r, way, 100 * r * (1 + share)]
         pivot += [2e3 * share / np.sqrt(1 - share**2), 270.0, -90.0, 0.0]
@@ -255,9 +234,7 @@ def test_the_evaluation_of_two_presses_is_what_the_closed_forms_say() -> None:
     head, *rows = found._repr_html_().split("<tr>")[1:]
     assert head.index(">short<") < head.index(">long<") and len(rows) == len(found.rows)
     assert ">200 mm" in rows[0] and "400 mm" in rows[0]
-    for said, expected in zip(
-        found.evaluation().splitlines(), (motion, pivot, torques, flywheel), strict=False
-    ):
+    for said, expected in zip(found.evaluation().splitlines(), (motion, pivot, torques, flywheel), strict=False):
         assert said.index("short") < said.index("long")
         assert numbers(said) == pytest.approx(expected, rel=6e-4, abs=1e-9)
 
@@ -337,9 +314,7 @@ def test_summaries_of_outputs_are_compared_like_numbers() -> None:
     assert [row.criterion.better for row in found.rows] == ["lower", None, None]
     assert [row.dimension for row in found.rows] == ["torque", "velocity", "angle"]
     assert found.ranking[0].label == "short" and found.rows[0].best == (0,)
-    short = PRESS.replace(MOVING, "table: {over: guide, x: [0 m, 0.4 m], y: [5 N, 1 N]}}").replace(
-        "CRANK", "0.1 m"
-    )
+    short = PRESS.replace(MOVING, "table: {over: guide, x: [0 m, 0.4 m], y: [5 N, 1 N]}}").replace("CRANK", "0.1 m")
     with refused("loads.table_too_short", ranges="400 mm to 600 mm", name="work"):
         compare([loads(short), loads(short)], metrics=["driver.effort rms"], steps=36)
 

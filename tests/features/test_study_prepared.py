@@ -158,8 +158,7 @@ def test_designs_of_a_sweep_that_cannot_pass_between_two_positions_fail() -> Non
     lengths = np.array([0.69, 0.695, 0.6999, 0.7001, 0.72])
     found = lw.sweep(mechanism, {"rocker.length": lengths}, outputs=[("B.velocity", "max")], steps=5)
     alone = [
-        lw.solve_motion(mechanism.with_dimensions({"rocker.length": x}), steps=5, failures="mark").ok
-        for x in lengths
+        lw.solve_motion(mechanism.with_dimensions({"rocker.length": x}), steps=5, failures="mark").ok for x in lengths
     ]
     assert found.ok.tolist() == [False, False, False, True, True] == [bool(ok.all()) for ok in alone]
     assert found.assembled.tolist() == [int(ok.sum()) for ok in alone]

@@ -82,9 +82,7 @@ def test_a_sobol_sequence_fills_the_ranges_evenly_and_again() -> None:
     machine = store.machine("crank_rocker")
     ranges = {"coupler.length": "3..4 m", "rocker.length": "2.4..2.8 m"}
     metrics = ["closeness min"]
-    found, again = (
-        study(machine, ranges, metrics=metrics, sampling="sobol", samples=64, steps=36) for _ in range(2)
-    )
+    found, again = (study(machine, ranges, metrics=metrics, sampling="sobol", samples=64, steps=36) for _ in range(2))
     assert found.designs == 64
     for address, low, high in (("coupler.length", 3.0, 4.0), ("rocker.length", 2.4, 2.8)):
         share = (found[address] - low) / (high - low)
@@ -104,9 +102,7 @@ def test_loads_and_registered_metrics_of_every_design() -> None:
     assert found["peak_reaction O5"].tolist() == found["reaction O5 on jaw max"].tolist()
     for index in range(4):
         forces = lw.solve_forces(found.design(index), steps=7200)
-        assert found["driver.effort rms"][index] == pytest.approx(
-            np.sqrt((forces.input_torque**2).mean()), rel=1e-7
-        )
+        assert found["driver.effort rms"][index] == pytest.approx(np.sqrt((forces.input_torque**2).mean()), rel=1e-7)
 
 
 def test_csv_and_data_hold_every_design() -> None:
@@ -199,9 +195,7 @@ def test_a_sobol_sequence_needs_scipy(monkeypatch: pytest.MonkeyPatch) -> None:
         ("planetary_two_inputs", "ring.mass", ["peak_input_torque", "rms_input_torque", "peak_reaction"]),
     ],
 )
-def test_what_a_machine_does_not_have_is_left_out_where_nobody_asked(
-    model: str, vary: str, names: list[str]
-) -> None:
+def test_what_a_machine_does_not_have_is_left_out_where_nobody_asked(model: str, vary: str, names: list[str]) -> None:
     """A triad has no transmission angle, what turns round and round no travel; asked for by name they are refused."""
     machine = store.machine(model)
     found = study(machine, {vary: [1.0, 2.0]}, steps=24)

@@ -18,9 +18,7 @@ CRANK, FRAME = 1.0, 4.0
 
 def swing(coupler: float, rocker: float) -> float:
     """Between the positions in which crank and coupler are in line, deg."""
-    ends = [
-        np.arccos((rocker**2 + FRAME**2 - (coupler + s * CRANK) ** 2) / (2 * rocker * FRAME)) for s in (1, -1)
-    ]
+    ends = [np.arccos((rocker**2 + FRAME**2 - (coupler + s * CRANK) ** 2) / (2 * rocker * FRAME)) for s in (1, -1)]
     return float(np.degrees(ends[0] - ends[1]))
 
 
@@ -53,10 +51,7 @@ def test_the_table_of_a_study(study: lw.Study, rows: int) -> None:
     lines = text[1].splitlines()
     designs = [(b, c) for b in np.linspace(1.2, 3.6, 7) for c in (2.4, 2.6)]
     shown = {2: [0, 13], 5: [0, 3, 6, 10, 13]}.get(rows, list(range(14)))
-    assert re.findall(r"\d+", text[0].removeprefix(NAME)) == [
-        "14",
-        str(sum(turns(*each) for each in designs)),
-    ]
+    assert re.findall(r"\d+", text[0].removeprefix(NAME)) == ["14", str(sum(turns(*each) for each in designs))]
     assert cells(lines[0])[1:3] == ["coupler.length", "rocker.length"]
     assert [cell.split()[-1] for cell in cells(lines[0])[3:]] == ["[°]", "[°]", "[m/s]"]
     for line, k in zip(lines[1:], shown, strict=False):
@@ -97,8 +92,12 @@ def test_studies_and_sweeps_as_tables_of_notebooks(study: lw.Study) -> None:
     pytest.importorskip("pandas")
     frame = study.to_dataframe()
     assert list(frame.columns) == [
-        "coupler.length", "rocker.length", "travel [rad]", "transmission_angle [rad]", "B.velocity max [m/s]",
-    ]  # fmt: skip
+        "coupler.length",
+        "rocker.length",
+        "travel [rad]",
+        "transmission_angle [rad]",
+        "B.velocity max [m/s]",
+    ]
     assert frame["coupler.length"].to_numpy() == pytest.approx(np.repeat(np.linspace(1.2, 3.6, 7), 2))
     heads, *lines = study.csv().splitlines()
     assert heads == ",".join(frame.columns) and len(lines) == 14
@@ -107,9 +106,7 @@ def test_studies_and_sweeps_as_tables_of_notebooks(study: lw.Study) -> None:
     machine = study.mechanism
     columns = {"coupler.length": [1.2, 3.4, 3.6]}
     whole, part = (
-        lw.sweep(
-            machine, columns, outputs=["B.velocity max", "rocker.angle argmax"], steps=24, partial=partial
-        )
+        lw.sweep(machine, columns, outputs=["B.velocity max", "rocker.angle argmax"], steps=24, partial=partial)
         for partial in (False, True)
     )
     assert whole.assembled.tolist() == [9, 24, 24] and whole.ok.tolist() == [False, True, True]
@@ -175,11 +172,7 @@ def test_the_table_of_a_comparison_marks_the_best_and_says_what_decided() -> Non
     assert list(lengths)[order[0]] in repr(found)
     frame = found.to_dataframe()
     assert list(frame.columns) == list(lengths)
-    assert list(frame.index) == [
-        "transmission_angle [rad]",
-        "travel [rad]",
-        "peak_acceleration rocker [rad/s²]",
-    ]
+    assert list(frame.index) == ["transmission_angle [rad]", "travel [rad]", "peak_acceleration rocker [rad/s²]"]
     data = found.data()
     assert [each["weight"] for each in data["metrics"]] == [3.0, 1.0, 1.0]
     assert data["metrics"][0]["best"] == [list(lengths)[int(np.argmax(angles))]]
@@ -191,10 +184,7 @@ def test_a_table_of_one_row_and_notes_in_the_readers_language(study: lw.Study) -
     assert [cells(line)[0] for line in first.splitlines()[1:]] == ["0"]
     assert re.findall(r"\d+", left_out) == ["1", "14"]
     idle = lw.study(
-        store.machine("jaw_crusher_fourbar"),
-        {"loads.crushing.ramp.1": [80e3, 0.0]},
-        metrics=["flywheel"],
-        steps=72,
+        store.machine("jaw_crusher_fourbar"), {"loads.crushing.ramp.1": [80e3, 0.0]}, metrics=["flywheel"], steps=72
     )
     assert np.isfinite(idle["flywheel"]).tolist() == [True, False]
     name = idle.mechanism.name

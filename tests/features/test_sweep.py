@@ -25,9 +25,7 @@ def test_the_stroke_of_an_in_line_slider_crank_is_twice_the_crank() -> None:
     assert found["cylinder.displacement range"] == pytest.approx(2 * CRANK, rel=1e-13)
     assert np.all(found["cylinder.displacement argmax"] == 0.0)
     # at the outer dead point: r ω² (1 + r/l)
-    assert found["cylinder.acceleration", "peak"] == pytest.approx(
-        CRANK * omega**2 * (1 + CRANK / ROD), rel=1e-12
-    )
+    assert found["cylinder.acceleration", "peak"] == pytest.approx(CRANK * omega**2 * (1 + CRANK / ROD), rel=1e-12)
     assert np.all(found.assembled == 360)
     assert found.failures() == ()
 
@@ -59,9 +57,7 @@ driver: {turn: crank, about: O, speed: 60 rpm}
 def test_the_angles_of_a_rocker_that_swings_about_half_a_turn() -> None:
     """Its limits by the law of cosines, in one swing however the angle is counted."""
     crank = np.array([1.0, 0.9])
-    found = sweep(
-        lw.loads(SWINGING), {"crank.length": crank}, outputs=["rocker.angle max", "rocker.angle min"]
-    )
+    found = sweep(lw.loads(SWINGING), {"crank.length": crank}, outputs=["rocker.angle max", "rocker.angle min"])
     at_pivot = np.array([np.arccos((16 + 6.25 - (4 + side * crank) ** 2) / 20) for side in (1, -1)])
     expected = np.radians(250 - 360) - at_pivot
     assert found["rocker.angle min"] == pytest.approx(expected[0], abs=3e-5)
@@ -106,9 +102,7 @@ gravity: [0, -9.81 m/s²]
 @pytest.mark.parametrize("nominal", ["0.8", "1"])
 @pytest.mark.parametrize("start", ["20.5", "0"])
 @pytest.mark.parametrize("steps", [12, 36])
-def test_designs_barred_at_a_change_point_have_their_reached_positions(
-    steps: int, start: str, nominal: str
-) -> None:
+def test_designs_barred_at_a_change_point_have_their_reached_positions(steps: int, start: str, nominal: str) -> None:
     """Crank 1 m passes 180° with the other sign, 10 µm more does not, though it can be assembled on both sides; 1.2 m
     is barred for longer. A position on the change point itself has no numbers."""
     mechanism = lw.loads(OPEN_AT_180.replace("START", start).replace("NOMINAL", nominal))
@@ -119,9 +113,7 @@ def test_designs_barred_at_a_change_point_have_their_reached_positions(
         for partial in (False, True)
     )
     for k, crank in enumerate(cranks):
-        motion = lw.solve_motion(
-            mechanism.with_dimensions({"crank.length": crank}), steps=steps, failures="mark"
-        )
+        motion = lw.solve_motion(mechanism.with_dimensions({"crank.length": crank}), steps=steps, failures="mark")
         count = int(motion.ok.sum())
         assert whole.assembled[k] == part.assembled[k] == count
         expected = [
@@ -155,9 +147,7 @@ def _reductions(values: np.ndarray) -> dict[str, float]:
         ("triad", {"crank.A.x": (0.026, 0.034), "bar_1.mass": (0.5, 2.0)}),
     ],
 )
-def test_summaries_are_those_of_every_design_solved_alone(
-    name: str, varied: dict[str, tuple[float, float]]
-) -> None:
+def test_summaries_are_those_of_every_design_solved_alone(name: str, varied: dict[str, tuple[float, float]]) -> None:
     mechanism = store.machine(name)
     rng = np.random.default_rng(3)
     columns = {a: rng.uniform(*r, 6) for a, r in varied.items()}
@@ -165,11 +155,7 @@ def test_summaries_are_those_of_every_design_solved_alone(
     joint = next(j for j in mechanism.joints if last in mechanism.joints[j].joined)
     reaction = f"reaction {joint} on {last}"
     kinds = ("min", "max", "mean", "rms", "peak", "range")
-    asked = [
-        (output, kind)
-        for output in ("input_torque", reaction, f"{last}.centre.acceleration")
-        for kind in kinds
-    ]
+    asked = [(output, kind) for output in ("input_torque", reaction, f"{last}.centre.acceleration") for kind in kinds]
     found = sweep(mechanism, columns, outputs=asked, steps=360)
     for index in range(6):
         design = mechanism.with_dimensions({a: float(c[index]) for a, c in columns.items()})
@@ -198,9 +184,7 @@ def test_both_back_ends_and_any_number_of_threads_agree() -> None:
 
 
 def test_named_parameters_drive_their_expressions() -> None:
-    found = sweep(
-        lw.loads(SCALED), {"r": [0.04, 0.06], "ratio": [3.0, 5.0]}, outputs=["cylinder.displacement max"]
-    )
+    found = sweep(lw.loads(SCALED), {"r": [0.04, 0.06], "ratio": [3.0, 5.0]}, outputs=["cylinder.displacement max"])
     assert found["cylinder.displacement max"] == pytest.approx([0.04 * 4, 0.06 * 6], rel=1e-13)
 
 
@@ -320,20 +304,21 @@ def test_few_positions_of_groups_followed_by_newton_are_those_asked_for(steps: i
     asked = [(output, kind) for output in outputs for kind in kinds]
     found = sweep(mechanism, {"plate.R.y": bars}, outputs=asked, steps=steps, backend=backend)
     assert found.assembled.tolist() == [steps] * 3
-    assert (
-        found.branch_margin is not None
-        and (found.branch_margin > 0).all()
-        and (found.branch_margin <= 1).all()
-    )
+    assert found.branch_margin is not None and (found.branch_margin > 0).all() and (found.branch_margin <= 1).all()
     for k, length in enumerate(bars):
         motion = lw.solve_motion(mechanism.with_dimensions({"plate.R.y": float(length)}), steps=steps)
         curves = (motion.link("plate").angular_velocity, motion.point("R").position[:, 0])
         for output, curve in zip(outputs, curves, strict=True):
             expected = {
-                "min": curve.min(), "max": curve.max(), "mean": curve.mean(), "rms": np.sqrt((curve**2).mean()),
-                "range": np.ptp(curve), "peak": np.abs(curve).max(),
-                "argmin": motion.input[curve.argmin()], "argmax": motion.input[curve.argmax()],
-            }  # fmt: skip
+                "min": curve.min(),
+                "max": curve.max(),
+                "mean": curve.mean(),
+                "rms": np.sqrt((curve**2).mean()),
+                "range": np.ptp(curve),
+                "peak": np.abs(curve).max(),
+                "argmin": motion.input[curve.argmin()],
+                "argmax": motion.input[curve.argmax()],
+            }
             for kind, value in expected.items():
                 assert found[output, kind][k] == pytest.approx(value, rel=1e-9, abs=1e-12), (output, kind)
 
@@ -445,9 +430,7 @@ cycle: {duration: 1.698158191669375 s}
 """)
     alone = lw.metrics(lw.solve_motion(resting, steps=48))
     swept = lw.sweep(
-        resting,
-        {"crank.A.x": np.array([0.085, 0.09])},
-        outputs=["mechanical_advantage", "velocity_ratio guide"],
+        resting, {"crank.A.x": np.array([0.085, 0.09])}, outputs=["mechanical_advantage", "velocity_ratio guide"]
     )
     assert np.isinf(alone["mechanical_advantage", "guide"].value)
     assert alone["velocity_ratio", "guide"].value == 0.0

@@ -31,12 +31,8 @@ def test_parts_are_the_sweep_and_a_restart_makes_what_is_missing(tmp_path: Path)
         assert columns[name] == pytest.approx(column, rel=1e-12, nan_ok=True)
     best = found.best("rocker.angle range", 3, largest=True)
     assert best["rocker.angle range"][0] == np.nanmax(columns["rocker.angle range"])
-    assert found.best("rocker.angle range", 1)["rocker.angle range"] == [
-        np.nanmin(columns["rocker.angle range"])
-    ]
-    assert found.best("transmission_angle", 1)["transmission_angle"] == [
-        np.nanmax(columns["transmission_angle"])
-    ]
+    assert found.best("rocker.angle range", 1)["rocker.angle range"] == [np.nanmin(columns["rocker.angle range"])]
+    assert found.best("transmission_angle", 1)["transmission_angle"] == [np.nanmax(columns["transmission_angle"])]
     before = contents(tmp_path)
     found.path(3).unlink()
     found.path(1).write_bytes(found.path(1).read_bytes()[:200])  # cut short by something else
@@ -79,17 +75,12 @@ def test_a_cluster_gives_the_same_numbers(tmp_path: Path) -> None:
     alone = lw.optimize(pair, minimize="peak_input_torque", **search)
     parts = lw.sweep_parts(crank, VARY, tmp_path / "here", outputs=NUMBERS, part=256, steps=60)
     options = {"n_workers": 1, "threads_per_worker": 2, "dashboard_address": ":0", "processes": False}
-    with (
-        distributed.LocalCluster(**options) as cluster,
-        distributed.Client(cluster, set_as_default=False) as client,
-    ):
+    with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster, set_as_default=False) as client:
         with lw.on_cluster(client):
             there = lw.sweep(crank, columns, outputs=NUMBERS, steps=40)
             shared = lw.optimize(pair, minimize="peak_input_torque", **search)
             pieces = lw.study(crank, **study)
-        again = lw.sweep_parts(
-            crank, VARY, tmp_path / "there", outputs=NUMBERS, part=256, steps=60, client=client
-        )
+        again = lw.sweep_parts(crank, VARY, tmp_path / "there", outputs=NUMBERS, part=256, steps=60, client=client)
     assert contents(parts.folder) == contents(again.folder)
     for name, column in every(here.columns().items()):
         np.testing.assert_allclose(column, there.columns()[name], rtol=1e-12)

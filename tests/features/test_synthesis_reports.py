@@ -44,8 +44,9 @@ def test_its_heading_in_both_languages(tmp_path: Path) -> None:
     file.write_text(IN_TWO, encoding="utf-8")
     found = {language: lw.report(file, language=language).document for language in ("en", "zh")}
     for language, (name, purpose) in {
-        "en": ("Press drive", "Stroke and quick return"), "zh": ("压力机传动", "行程与急回"),
-    }.items():  # fmt: skip
+        "en": ("Press drive", "Stroke and quick return"),
+        "zh": ("压力机传动", "行程与急回"),
+    }.items():
         texts = [getattr(block, "text", "") for block in found[language].blocks]
         assert name in texts and purpose in texts
         assert found[language].title == "Own title" and found[language].lines == ("A. Author",)
@@ -72,9 +73,7 @@ def test_a_machine_with_a_task_has_the_chapter(tmp_path: Path) -> None:
     """The section of a machine that holds a task as well, asked for by its name."""
     file = tmp_path / "machine.yaml"
     text = lw.synthesize("slider_crank", stroke=0.1, rod_ratio=4).model_text()
-    file.write_text(
-        text + "synthesis: {task: slider_crank, stroke: 100 mm, rod_ratio: 4}\n", encoding="utf-8"
-    )
+    file.write_text(text + "synthesis: {task: slider_crank, stroke: 100 mm, rod_ratio: 4}\n", encoding="utf-8")
     found = lw.report(file, sections=["synthesis"])
     assert found.missing == () and {"Table", "Formula", "Figure"} <= kinds(found)
 

@@ -32,7 +32,8 @@ CASES: dict[str, tuple[str, dict[str, Any]]] = {
     "crank-rocker": ("crank_rocker", {"swing_angle": 40 * DEG, "quick_return_ratio": 1.2, "frame": 0.3}),
     "crank-rocker, K 1": ("crank_rocker", {"swing_angle": 40 * DEG, "quick_return_ratio": 1, "rocker": 0.2}),
     "crank-rocker, both": (
-        "crank_rocker", {"swing_angle": 40 * DEG, "quick_return_ratio": 1.2, "frame": 0.3, "rocker": 0.284},
+        "crank_rocker",
+        {"swing_angle": 40 * DEG, "quick_return_ratio": 1.2, "frame": 0.3, "rocker": 0.284},
     ),
     "shaper": ("quick_return", {"quick_return_ratio": 1.5, "frame": 0.43, "stroke": 0.4}),
     "lever": ("quick_return", {"quick_return_ratio": 1.5, "frame": 0.43}),
@@ -52,10 +53,7 @@ CASES: dict[str, tuple[str, dict[str, Any]]] = {
         {"inputs": ANGLES, "outputs": OUTPUTS, "input_zero": 0.4, "output_zero": 0.7, "equation_error": True},
     ),
     "rounded": ("slider_crank", {"stroke": 0.3975, "rod_ratio": 3.55, "offset_ratio": 0.305, "rounding": 5e-4}),
-    "rounded pairs": (
-        "function",
-        {"inputs": ANGLES, "outputs": OUTPUTS, "frame": 0.1, "rounding": 1e-3},
-    ),
+    "rounded pairs": ("function", {"inputs": ANGLES, "outputs": OUTPUTS, "frame": 0.1, "rounding": 1e-3}),
     "places": (
         "function",
         {"inputs": ANGLES[:4], "places": [0, 0.035, 0.064, 0.09], "linkage": "slider_crank", "output_zero": 0.01},
@@ -69,10 +67,8 @@ CASES: dict[str, tuple[str, dict[str, Any]]] = {
     "pivots on a line": ("motion", {"poses": POSES[:3], "pivot_line": [(-0.1, -0.2), (0.2, -0.2)]}),
     "path": ("path", {"points": PATH, "angles": [0.1, 0.6, 1.2, 1.9, 2.4]}),
     "exact path": ("exact_path", {"points": PATH}),
-    "free curve": (
-        "free_curve", {"points": [(9e-3, 0), (9e-3, 17e-3), (0, 6e-3)], "joints": 5, "seconds": 0.2},
-    ),
-}  # fmt: skip
+    "free curve": ("free_curve", {"points": [(9e-3, 0), (9e-3, 17e-3), (0, 6e-3)], "joints": 5, "seconds": 0.2}),
+}
 #: Those whose numbers stand in tables alone.
 TABLES = ("peaucellier", "places")
 #: Those that take longest.
@@ -297,8 +293,7 @@ def test_rounded_lengths_have_the_error_that_is_shown() -> None:
     assert [each - round(each) for each in lengths.values()] == pytest.approx([0] * 4, abs=1e-9)
     zeros = [case("five pairs").best.values[f"{name}_zero [rad]"] for name in ("input", "output")]
     off = [
-        output_of(lengths, x + zeros[0], y + zeros[1]) - y - zeros[1]
-        for x, y in zip(ANGLES, OUTPUTS, strict=True)
+        output_of(lengths, x + zeros[0], y + zeros[1]) - y - zeros[1] for x, y in zip(ANGLES, OUTPUTS, strict=True)
     ]
     assert best.deviations == pytest.approx(off, abs=1e-9) and 0 < best.error < 0.02
     assert best.error == pytest.approx(np.sqrt(np.mean(np.square(off))), rel=1e-6)
@@ -336,19 +331,20 @@ def test_the_crank_pivot_lies_on_the_drawn_circle() -> None:
     """Seen from the pivot the limit positions of the rocker enclose θ, and the dashed circle passes all three, to the
     scale of 10 mm on a mm of paper, four units."""
     svg = drawn("crank-rocker")
-    (locus,) = [np.fromstring(path.get("d", "")[1:].replace("L", " "), sep=" ").reshape(-1, 2) @ (1, -1j)
-                for path in svg.iterfind(f".//{SVG}path[@class='lw-locus-line']")]  # fmt: skip
+    (locus,) = [
+        np.fromstring(path.get("d", "")[1:].replace("L", " "), sep=" ").reshape(-1, 2) @ (1, -1j)
+        for path in svg.iterfind(f".//{SVG}path[@class='lw-locus-line']")
+    ]
     centre, radius = locus[:-1].mean(), float(np.ptp(locus.real)) / 2
-    pins = {complex(float(pin.get("cx", "")), -float(pin.get("cy", "")))
-            for pin in svg.iterfind(f".//{SVG}circle[@class='lw-pin']")}  # fmt: skip
-    *limits, pivot = sorted(
-        (pin for pin in pins if abs(abs(pin - centre) - radius) < 0.1), key=lambda z: z.real
-    )
+    pins = {
+        complex(float(pin.get("cx", "")), -float(pin.get("cy", "")))
+        for pin in svg.iterfind(f".//{SVG}circle[@class='lw-pin']")
+    }
+    *limits, pivot = sorted((pin for pin in pins if abs(abs(pin - centre) - radius) < 0.1), key=lambda z: z.real)
     assert abs(limits[0] - limits[1]) / 4 * 10 == pytest.approx(2 * 284.2078 * math.sin(20 * DEG), abs=0.1)
     values = {line.symbol: line.value for line in case("crank-rocker").worked().equations}
     o2 = min(
-        pins,
-        key=lambda pin: abs(abs(pin - limits[0]) - 4 * 28.42078) + abs(abs(pin - limits[1]) - 4 * 28.42078),
+        pins, key=lambda pin: abs(abs(pin - limits[0]) - 4 * 28.42078) + abs(abs(pin - limits[1]) - 4 * 28.42078)
     )
     assert (pivot - o2) / 4 * 10 == pytest.approx(complex(values["x_O1"], values["y_O1"]), abs=0.1)
     seen = np.angle((limits[0] - pivot) / (limits[1] - pivot))
@@ -357,9 +353,7 @@ def test_the_crank_pivot_lies_on_the_drawn_circle() -> None:
 
 def test_the_error_curve_has_the_deviations() -> None:
     found = case("equation")
-    (curve,) = [
-        line for line in found.plot("structural_error").figure.axes[0].lines if line.get_marker() == "o"
-    ]
+    (curve,) = [line for line in found.plot("structural_error").figure.axes[0].lines if line.get_marker() == "o"]
     assert curve.get_ydata() == pytest.approx(np.degrees(found.best.deviations))
     assert curve.get_xdata() == pytest.approx(np.degrees(CASES["equation"][1]["inputs"]))
 

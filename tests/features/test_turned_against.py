@@ -46,9 +46,7 @@ def test_check_says_against_which_link(driver: str, severity: str, values: dict[
     assert not [each for each in findings(clear) if each.key == "driver.about"]
 
 
-def test_structure_and_solve_say_against_which_link(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_structure_and_solve_say_against_which_link(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "led.yaml"
     file.write_text(LED_AT_ITS_COUPLER, encoding="utf-8")
     told = re.compile(r"coupler.* B .*crank")

@@ -39,9 +39,7 @@ def test_parameters_of_a_law_follow_their_changes() -> None:
         np.testing.assert_allclose(crank.angle, amplitude * np.sin(phase), atol=1e-14)
         rate = amplitude * 2 * np.pi / period
         np.testing.assert_allclose(crank.angular_velocity, rate * np.cos(phase), atol=1e-13)
-        np.testing.assert_allclose(
-            crank.angular_acceleration, -rate * 2 * np.pi / period * np.sin(phase), atol=1e-12
-        )
+        np.testing.assert_allclose(crank.angular_acceleration, -rate * 2 * np.pi / period * np.sin(phase), atol=1e-12)
     again = lw.loads(lw.dump(model))
     assert again.drivers == model.drivers
 
@@ -86,9 +84,7 @@ def test_a_torque_table_may_begin_anywhere(start: float) -> None:
         assert math.cos(2 * math.pi * (place - expected) / 4.0) == pytest.approx(1.0, abs=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("pivot", "coupler", "missing", "least"), [(7.0, 2.0, 1.0, False), (0.4, 5.0, 1.4, True)]
-)
+@pytest.mark.parametrize(("pivot", "coupler", "missing", "least"), [(7.0, 2.0, 1.0, False), (0.4, 5.0, 1.4, True)])
 def test_what_is_missing_is_said_as_a_positive_length(
     pivot: float, coupler: float, missing: float, least: bool
 ) -> None:
@@ -131,9 +127,14 @@ def test_units_behind_roots_and_quotients_everywhere_in_a_file() -> None:
     machine, found = lw.loads(text), findings(text)
     root = math.sqrt(2.0)
     expected = {
-        "coupler.length": root, "crank.length": 1.0 / 3.0, "coupler.mass": 1.0 / 3.0, "coupler.inertia": 0.01 * root,
-        "rocker.length": 2.0 * root / 3.0, "driver.speed": 2.0 * math.pi, "driver.start": math.pi / 6.0,
-    }  # fmt: skip
+        "coupler.length": root,
+        "crank.length": 1.0 / 3.0,
+        "coupler.mass": 1.0 / 3.0,
+        "coupler.inertia": 0.01 * root,
+        "rocker.length": 2.0 * root / 3.0,
+        "driver.speed": 2.0 * math.pi,
+        "driver.start": math.pi / 6.0,
+    }
     for address, value in expected.items():
         assert machine.dimension(address) == pytest.approx(value, rel=1e-15), address
     point = machine.links["rocker"].points["P"]
@@ -171,7 +172,5 @@ def test_roots_with_units_on_the_command_line() -> None:
     ],
 )
 def test_roots_that_are_no_length(text: str, code: str, values: dict[str, object]) -> None:
-    wrong = ROOTS.replace("length: sqrt(2) m", f'length: "{text}"').replace(
-        "2*sqrt(2)/3 m + 5 mm - 5 mm", "1 m"
-    )
+    wrong = ROOTS.replace("length: sqrt(2) m", f'length: "{text}"').replace("2*sqrt(2)/3 m + 5 mm - 5 mm", "1 m")
     said(findings(wrong), code, "links.coupler.length", **values)

@@ -89,15 +89,9 @@ def test_two_cams_have_symbols_of_their_own() -> None:
     guide = next(line for line in text.splitlines(keepends=True) if line.startswith("  guide:"))
     other = guide.replace("guide:", "guide_2:", 1).replace("block: slide, at: P", "block: slide_2, at: R")
     other = other.replace("direction: 90 deg", "direction: -90 deg")
-    more = (
-        lobe.replace("lobe:", "lobe_2:")
-        .replace("follower: slide", "follower: slide_2")
-        .replace("at: P", "at: R")
-    )
+    more = lobe.replace("lobe:", "lobe_2:").replace("follower: slide", "follower: slide_2").replace("at: P", "at: R")
     text = text.replace(lobe, lobe + more).replace(guide, guide + other)
-    text = text.replace(
-        slide, slide + slide.replace("slide:", "slide_2:").replace("P:", "R:").replace("Q:", "T:")
-    )
+    text = text.replace(slide, slide + slide.replace("slide:", "slide_2:").replace("P:", "R:").replace("Q:", "T:"))
     forces = lw.solve_forces(lw.solve_motion(lw.loads(text), at=np.array([1.3])))
     _, found = page_of(forces, 0)
     assert found["S_lobe"] == pytest.approx(found["S_lobe_2"])

@@ -44,7 +44,5 @@ assert np.abs(lw.solve_forces(motion).power_residual).max() < 1e-12
 
 def test_the_joint_is_added_to_the_kinds_of_the_contract_tests() -> None:
     (line,) = [body for body in blocks("py") if body.lstrip().startswith('"slot"')]
-    assert "KINDS: Mapping[str, str] = {" in (ROOT / "tests/contract/joints_of_every_kind.py").read_text(
-        "utf-8"
-    )
+    assert "KINDS: Mapping[str, str] = {" in (ROOT / "tests/contract/joints_of_every_kind.py").read_text("utf-8")
     assert line.strip().endswith(",")

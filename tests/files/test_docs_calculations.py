@@ -16,13 +16,9 @@ def examples(language: str) -> list[str]:
     """Files with a kind in the pages of a language."""
     pages = sorted((ROOT / language / "how-to").glob("*.md"))
     blocks = [
-        block
-        for page in pages
-        for block in re.findall(r"```yaml\n(.*?)```", page.read_text("utf-8"), re.DOTALL)
+        block for page in pages for block in re.findall(r"```yaml\n(.*?)```", page.read_text("utf-8"), re.DOTALL)
     ]
-    return [
-        block for block in blocks if re.search(r"(?m)^kind: \w+", block) and block.startswith("format: 1")
-    ]
+    return [block for block in blocks if re.search(r"(?m)^kind: \w+", block) and block.startswith("format: 1")]
 
 
 @pytest.mark.parametrize("language", ["en", "zh"])

@@ -34,11 +34,7 @@ from tests.public import PUBLIC
 from linkwright.cli import main
 
 #: Files that the examples take as the reader's own, and the gallery models that stand for them.
-OWN = {
-    "crusher.yaml": "jaw_crusher_sixbar",
-    "press.yaml": "slider_crank_inline",
-    "model.yaml": "crank_rocker",
-}
+OWN = {"crusher.yaml": "jaw_crusher_sixbar", "press.yaml": "slider_crank_inline", "model.yaml": "crank_rocker"}
 #: A file that an example writes, but where it says that one of the name may be replaced.
 WRITTEN = re.compile(
     r'--(?:output|plot|draw|profile|to) "?([\w/]+\.\w+)|'
@@ -66,17 +62,13 @@ LINES = {
     for line in commands(page)
     if not any(mark in line for mark in NOT_RUN)
 }
-COMMANDS = [
-    pytest.param(line, id=f"{name(page)}: {line[:60]}", marks=marks(page)) for page, line in LINES.values()
-]
+COMMANDS = [pytest.param(line, id=f"{name(page)}: {line[:60]}", marks=marks(page)) for page, line in LINES.values()]
 
 
 def of_the_tutorial() -> str:
     """The tutorial's model as its reader has it at the end: links of the later step in place of the first ones."""
     first, second, third = blocks(ROOT / "docs/en/start/tutorial.md", "yaml")
-    heavier = {
-        line.split(":")[0]: line for line in second.splitlines() if line.startswith("  ") and "points" in line
-    }
+    heavier = {line.split(":")[0]: line for line in second.splitlines() if line.startswith("  ") and "points" in line}
     whole = [heavier.get(line.split(":")[0], line) for line in first.splitlines()]
     return "\n".join([*whole, second[second.index("gravity:") :], third])
 
@@ -109,12 +101,7 @@ def test_blocks_of_two_languages_are_alike_where_only_the_language_differs() -> 
         ('lw.draw(motion, title="压力机").save("a.svg")', False),
     ):
         assert alike(english, parsed(text)) == same, text
-    assert without_language(("solve", "m", "--lang", "zh", "--at", "0 deg")) == (
-        "solve",
-        "m",
-        "--at",
-        "0 deg",
-    )
+    assert without_language(("solve", "m", "--lang", "zh", "--at", "0 deg")) == ("solve", "m", "--at", "0 deg")
 
 
 def test_every_public_name_is_in_an_example() -> None:
@@ -148,8 +135,11 @@ def test_python_of_the_page_runs(page: Path, desk: Path) -> None:
     program += "run_python(Path(sys.argv[1]))"
     done = subprocess.run(
         [sys.executable, "-c", program, str(page)],
-        env={**os.environ, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert done.returncode == 0, done.stderr
 
 

@@ -42,9 +42,7 @@ def test_the_reference_of_model_files_has_every_key_of_the_schema(language: str)
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_the_gallery_shows_every_model(language: str) -> None:
     index = "\n".join(pages.gallery_index(language))
-    assert all(
-        f":link: {name}\n" in index and f"pictures/{name}.svg" in index for name in every(gallery.names())
-    )
+    assert all(f":link: {name}\n" in index and f"pictures/{name}.svg" in index for name in every(gallery.names()))
     by_kinds = re.findall(r"(?m)^\| `(\w+)` \| .+ \| .+ \|$", "\n".join(pages.gallery_by_kinds(language)))
     assert sorted(by_kinds) == sorted(gallery.names())
     page = "\n".join(pages.gallery_page("truss", language))
@@ -73,9 +71,7 @@ def test_a_page_in_one_language_is_there_in_the_other() -> None:
 def test_every_design_number_is_named_with_how_it_is_had(language: str) -> None:
     """In the table of the page on design numbers; a star where it has to be asked for."""
     rows = re.findall(r"`(\w+)`(\\\*)?", (DOCS / language / "theory/metrics.md").read_text("utf-8"))
-    told = {
-        name: bool(star) for name, star in rows if name in METRICS and (star or not METRICS[name].on_request)
-    }
+    told = {name: bool(star) for name, star in rows if name in METRICS and (star or not METRICS[name].on_request)}
     assert told == {name: METRICS[name].on_request for name in METRICS}
 
 

@@ -55,8 +55,7 @@ def test_the_gallery_is_told_in_every_language() -> None:
 
 
 @pytest.mark.parametrize(
-    "kept",
-    [copy.deepcopy, lambda press: pickle.loads(pickle.dumps(press)), lambda press: lw.loads(lw.dump(press))],
+    "kept", [copy.deepcopy, lambda press: pickle.loads(pickle.dumps(press)), lambda press: lw.loads(lw.dump(press))]
 )
 def test_no_language_is_lost(kept: Callable[[lw.Mechanism], lw.Mechanism]) -> None:
     for press in (lw.loads(TEXT), lw.loads(TEXT).translate("zh")):
@@ -74,9 +73,7 @@ def test_a_machine_built_in_code_has_names_too() -> None:
 
 @pytest.mark.parametrize("language", list(NAMES))
 @pytest.mark.parametrize(
-    "command",
-    [["solve"], ["metrics"], ["structure"], ["draw"], ["report"], ["export", "--to", "html"]],
-    ids=" ".join,
+    "command", [["solve"], ["metrics"], ["structure"], ["draw"], ["report"], ["export", "--to", "html"]], ids=" ".join
 )
 def test_commands_show_the_name_of_their_language(
     command: list[str], language: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
@@ -99,11 +96,7 @@ def test_drawings_in_python_have_the_name_of_their_language() -> None:
 
 @pytest.mark.parametrize(
     ("given", "key", "code"),
-    [
-        ("{en: Press, fr: Presse}", "name.fr", "unknown-key"),
-        ("{}", "name", "type"),
-        ("[Press]", "name", "type"),
-    ],
+    [("{en: Press, fr: Presse}", "name.fr", "unknown-key"), ("{}", "name", "type"), ("[Press]", "name", "type")],
 )
 def test_what_is_no_name_is_refused_with_its_place(given: str, key: str, code: str) -> None:
     name = "{en: Sheet press, zh: 薄板压力机}"

@@ -18,11 +18,7 @@ def test_of_two_sweeps_into_one_folder_one_is_refused(tmp_path: Path) -> None:
     for k in range(2):
         work = [
             lambda n=n, k=k: sweep_parts(
-                mechanism,
-                {"coupler.length": f"3.4..3.6 m:{n}"},
-                tmp_path / str(k),
-                outputs=["swing_angle"],
-                steps=12,
+                mechanism, {"coupler.length": f"3.4..3.6 m:{n}"}, tmp_path / str(k), outputs=["swing_angle"], steps=12
             )
             for n in (3, 4)
         ]

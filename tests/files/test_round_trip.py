@@ -73,9 +73,7 @@ def test_a_changed_value_leaves_every_other_character(tmp_path: Path, ends: str,
     document.set("driver.start", "5 deg")
     document.set("l", "1.05 m")
     document.save(path, force=True)
-    expected = (
-        BLOCK.replace("3 m}", "3.2 m}").replace("length: l  ", "length: 1.1 m  ").replace("20 mm", "25 mm")
-    )
+    expected = BLOCK.replace("3 m}", "3.2 m}").replace("length: l  ", "length: 1.1 m  ").replace("20 mm", "25 mm")
     expected = expected.replace("# chosen\n", "# chosen\n    mass: 2 kg\n").replace("l: 1 m", "l: 1.05 m")
     expected += "\n  start: 5 deg"
     assert path.read_bytes().decode() == mark + expected.replace("\n", ends)
@@ -108,9 +106,15 @@ def test_values_set_together_read_as_if_set_in_turn(tmp_path: Path, mark: str) -
     path = tmp_path / "m.yaml"
     path.write_text(mark + BLOCK)
     values = {
-        "rocker.length": "3.25 m", "crank.mass": "2 kg", "crank.inertia": "1 kg·m²", "links.crank.length": "1.1 m",
-        "coupler.P.y": "25 mm", "links.coupler.also.P.y": "26 mm", "driver.start": "5 deg", "l": "1.05 m",
-    }  # fmt: skip
+        "rocker.length": "3.25 m",
+        "crank.mass": "2 kg",
+        "crank.inertia": "1 kg·m²",
+        "links.crank.length": "1.1 m",
+        "coupler.P.y": "25 mm",
+        "links.coupler.also.P.y": "26 mm",
+        "driver.start": "5 deg",
+        "l": "1.05 m",
+    }
     together, in_turn = read_document(path), read_document(path)
     together.set_all(values)
     for address, value in values.items():
@@ -158,13 +162,7 @@ def test_dimensions_that_are_expressions_follow_their_parameters() -> None:
         ("crank.mass", -1.0, RequestError, "model.set_outside", {"value": "-1 kg", "limit": OR_MORE}),
         ("crank.lenth", 1.0, LinkwrightError, "model.no_dimension", {"offer": "crank.length"}),
         ("loads.s.stiffness", -1.0, RequestError, "model.set_outside", {"value": "-1 N/m", "limit": OR_MORE}),
-        (
-            "loads.s.free_length",
-            -0.1,
-            RequestError,
-            "model.set_outside",
-            {"value": "-0.1 m", "limit": OR_MORE},
-        ),
+        ("loads.s.free_length", -0.1, RequestError, "model.set_outside", {"value": "-0.1 m", "limit": OR_MORE}),
         ("A.pin_radius", 0.0, RequestError, "model.set_outside", {"value": "0 m", "limit": ABOVE}),
         ("cycle.duration", 0.0, RequestError, "model.set_outside", {"value": "0 s", "limit": ABOVE}),
         ("gravity.z", 1.0, LinkwrightError, "model.no_dimension", {"offer": "gravity.y"}),
@@ -243,7 +241,12 @@ driver: {turn: crank, about: O, speed: 1 rpm}
 """
     joints = loads(text).joints
     assert {name: joint.kind for name, joint in joints.items()} == {
-        "O": "revolute", "A": "revolute", "F": "revolute", "guide": "prismatic", "fixed": "weld"}  # fmt: skip
+        "O": "revolute",
+        "A": "revolute",
+        "F": "revolute",
+        "guide": "prismatic",
+        "fixed": "weld",
+    }
     assert joints["F"].joined == ("rod", "slider")
     guide: Any = joints["guide"]
     assert guide.direction == pytest.approx(math.pi / 2)
@@ -274,19 +277,30 @@ def test_the_schema_names_every_section_and_is_plain_json() -> None:
     assert "force" in {each["title"] for each in loads_of}
     link = schema["properties"]["links"]["additionalProperties"]
     assert set(link["properties"]) == {
-        "points", "length", "lengths", "angle", "also", "mass", "inertia", "mass_centre"}  # fmt: skip
+        "points",
+        "length",
+        "lengths",
+        "angle",
+        "also",
+        "mass",
+        "inertia",
+        "mass_centre",
+    }
 
 
 @pytest.mark.parametrize(
     ("name", "before", "after"),
     [
         ("chain_drive", "pitch: 12.7 mm", "pitch: 12.7 mm, phase: 10 deg"),
-        ("chain_drive", "kind: chain, links: [motor, crank], teeth: [17, 51], pitch: 12.7 mm",
-         "kind: belt, links: [motor, crank], radii: [30 mm, 90 mm], run: crossed, pretension: 200 N"),
+        (
+            "chain_drive",
+            "kind: chain, links: [motor, crank], teeth: [17, 51], pitch: 12.7 mm",
+            "kind: belt, links: [motor, crank], radii: [30 mm, 90 mm], run: crossed, pretension: 200 N",
+        ),
         ("external_gear_pair", "module: 2 mm", "module: 2 mm, pressure_angle: 25 deg"),
         ("pinion_between_racks", "below: {kind: rack,", "below: {kind: rack, pressure_angle: 14.5 deg,"),
     ],
-)  # fmt: skip
+)
 def test_what_wheels_are_given_is_written(name: str, before: str, after: str) -> None:
     text = store.text(name)
     assert before in text

@@ -34,9 +34,7 @@ def on_a_bracket(name: str) -> lw.Mechanism:
 
     data |= {key: moved(data[key]) for key in ("joints", "loads", "driver") if key in data}
     points = data["frame"]["points"]
-    points |= {
-        "W": next(iter(points.values()))
-    }  # elsewhere it would be more of the room that the machine takes
+    points |= {"W": next(iter(points.values()))}  # elsewhere it would be more of the room that the machine takes
     data["frame"] = {"points": {"W": points["W"]}}
     data["links"] = {"bracket": {"points": points}} | data["links"]
     weld = {"kind": "weld", "links": ["frame", "bracket"], "at": "W", "angle": "0 rad"}

@@ -56,9 +56,7 @@ EDITS: dict[str, Edit] = {
     },
     "triad": lambda: longer("triad", "crank.A.x"),
     **{
-        f"{address} {value}": lambda address=address, value=value: changed(
-            "jaw_crusher_sixbar", {address: value}
-        )
+        f"{address} {value}": lambda address=address, value=value: changed("jaw_crusher_sixbar", {address: value})
         for address, value in (
             ("crank.mass", 3.0),
             ("jaw.mass", 0.0),

@@ -3,9 +3,7 @@
 import numpy as np
 
 
-def hidden_four_bars(
-    count: int, poses: int, seed: int
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def hidden_four_bars(count: int, poses: int, seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Places and angles of couplers of random four-bars, and their pins A and B at the first pose, pivots 0 and 1."""
     rng = np.random.default_rng(seed)
     places, angles, pins, others = [], [], [], []

@@ -12,9 +12,7 @@ def hidden(rng: np.random.Generator, kind: str, count: int, share: float) -> tup
         s, p, q, m = np.sort(lengths)
         grashof = s + m < 0.97 * (p + q)
         turning = {0: "crank_rocker", 1: "double_rocker", 3: "double_crank"}
-        if m < 0.95 * (s + p + q) and kind == (
-            turning.get(int(np.argmin(lengths))) if grashof else "triple_rocker"
-        ):
+        if m < 0.95 * (s + p + q) and kind == (turning.get(int(np.argmin(lengths))) if grashof else "triple_rocker"):
             break
     low, high = ((a * a + d * d - (b + side * c) ** 2) / (2 * a * d) for side in (1, -1))
     first, last = np.arccos(np.clip([high, low], -1, 1))
@@ -26,6 +24,4 @@ def hidden(rng: np.random.Generator, kind: str, count: int, share: float) -> tup
     t = square + b * b - c * c
     turn = (d - pin) * (t + 1j * rng.choice([-1, 1]) * np.sqrt(4 * b * b * square - t * t)) / (2 * b * square)
     path = pin + complex(*rng.normal(0, b, 2)) * turn
-    return path * np.exp(1j * rng.uniform(0, 7)) * rng.uniform(0.5, 2) + complex(
-        *rng.uniform(-3, 3, 2)
-    ), theta
+    return path * np.exp(1j * rng.uniform(0, 7)) * rng.uniform(0.5, 2) + complex(*rng.uniform(-3, 3, 2)), theta

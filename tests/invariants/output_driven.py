@@ -39,8 +39,7 @@ def tied(end: float, side: int, begin: float = 160) -> lw.Mechanism:
     x, y = turned(300, far)
     reach = sqrt(140**2 + 300**2 - 2 * 140 * 300 * cos(radians(75)))
     links = (
-        f"arm: {{points: [D, F], length: {0.5 * reach!r} mm}}\n"
-        f"  leg: {{points: [O5, F], length: {0.5 * reach!r} mm}}"
+        f"arm: {{points: [D, F], length: {0.5 * reach!r} mm}}\n  leg: {{points: [O5, F], length: {0.5 * reach!r} mm}}"
     )
     return lw.loads(triad(links, f", O5: [{x!r} mm, {y!r} mm]", "assembly: {F: left}", start=begin))
 
@@ -48,7 +47,4 @@ def tied(end: float, side: int, begin: float = 160) -> lw.Mechanism:
 def turning(speed: float) -> str:
     """The six-bar whose output turns at a speed, rad/s."""
     law = f"driver: {{turn: output, about: O3, speed: {speed} rad/s, start: 160 deg}}\n"
-    return (
-        triad("", "", "").split("driver:", maxsplit=1)[0].replace("format: 1", "format: 1\nname: six-bar")
-        + law
-    )
+    return triad("", "", "").split("driver:", maxsplit=1)[0].replace("format: 1", "format: 1\nname: six-bar") + law

@@ -70,9 +70,9 @@ def test_partial_balance_of_a_slider_crank_lowers_the_peak_and_raises_the_cross_
 def test_other_mechanisms_are_refused() -> None:
     with refused("forces.not_balanced"):
         lw.balance(machine("jaw_crusher_sixbar"), radius=0.1)
-    whitworth = FOURBAR.replace(
-        "coupler: {points: [A, B], length: 0.35 m,", "coupler: {points: [A],"
-    ).replace("rocker: {points: [O2, B], length: 0.25 m,", "rocker: {points: [O2],")
+    whitworth = FOURBAR.replace("coupler: {points: [A, B], length: 0.35 m,", "coupler: {points: [A],").replace(
+        "rocker: {points: [O2, B], length: 0.25 m,", "rocker: {points: [O2],"
+    )
     slot = "joints: {slot: {kind: prismatic, guide: rocker, through: O2, direction: 0 deg, block: coupler, at: A}}"
     with refused("forces.no_pin_shared", a="rocker", b="coupler"):
         lw.balance(lw.loads(whitworth + slot), radius=0.1)
@@ -105,9 +105,7 @@ def test_a_counterweight_adds_its_own_inertia_about_its_pin() -> None:
     for weight in every(found.counterweights, least=2):
         old, new = (machine.links[weight.link] for machine in (plain, found.mechanism))
         assert new.mass == pytest.approx(old.mass + weight.mass)
-        about = [
-            each.inertia + each.mass * (each.centre[0] ** 2 + each.centre[1] ** 2) for each in (old, new)
-        ]
+        about = [each.inertia + each.mass * (each.centre[0] ** 2 + each.centre[1] ** 2) for each in (old, new)]
         assert about[1] - about[0] == pytest.approx(weight.mass * 0.08**2)
         moments = [each.mass * np.array(each.centre) for each in (old, new)]
         assert moments[1] - moments[0] == pytest.approx(weight.mass * np.array(weight.place))

@@ -99,9 +99,7 @@ def torque_of(mechanism: lw.Mechanism, length: float, mass: float, phase: float)
     angle = np.unwrap(turned(inputs, length)[0])
     whole = [each + phase + 2.0 * math.pi * lap for each in program.breaks[:-1] for lap in range(-2, 3)]
     bends = [
-        brentq(
-            lambda x, to=to: math.remainder(float(turned(x, length)[0]) - to, math.tau), x - 0.01, x + 0.01
-        )
+        brentq(lambda x, to=to: math.remainder(float(turned(x, length)[0]) - to, math.tau), x - 0.01, x + 0.01)
         for to in whole
         if angle[0] < to < angle[-1]
         for x in [float(np.interp(to, angle, inputs))]
@@ -136,9 +134,7 @@ def test_cams_that_turn_unevenly_are_cut_where_their_lifts_bend() -> None:
     assert values == pytest.approx(known[:, 0], rel=1e-9)
     for design, slope in zip(designs, slopes, strict=True):
         for number, step in enumerate((1e-6, 1e-5, 1e-5)):
-            sides = [
-                torque_of(mechanism, *(design + side * step * np.eye(3)[number]))[0] for side in (1.0, -1.0)
-            ]
+            sides = [torque_of(mechanism, *(design + side * step * np.eye(3)[number]))[0] for side in (1.0, -1.0)]
             assert slope[number] == pytest.approx((sides[0] - sides[1]) / (2.0 * step), rel=1e-6, abs=1e-6)
 
 

@@ -24,9 +24,7 @@ def test_parallelogram(inputs: list[float]) -> None:
 
 
 def test_grashof_equality_has_the_other_sign_in_the_second_turn() -> None:
-    text = PARALLELOGRAM.replace("length: 4 m", "length: 3 m").replace(
-        "[O2, B], length: 1 m", "[O2, B], length: 2 m"
-    )
+    text = PARALLELOGRAM.replace("length: 4 m", "length: 3 m").replace("[O2, B], length: 1 m", "[O2, B], length: 2 m")
     motion = lw.solve_motion(lw.loads(text), at=np.radians([90.0, 270.0, 450.0, 630.0]))
     across = motion.point("A").position - motion.point("B").position
     diagonal = np.array([4.0, 0.0]) - motion.point("A").position

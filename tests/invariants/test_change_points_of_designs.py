@@ -8,9 +8,7 @@ from tests.invariants.just_turning import FOURBAR, SLIDE
 import linkwright as lw
 
 
-def passed(
-    machine: lw.Mechanism, address: str, values: list[float], steps: int
-) -> tuple[list[bool], list[bool]]:
+def passed(machine: lw.Mechanism, address: str, values: list[float], steps: int) -> tuple[list[bool], list[bool]]:
     """Which designs pass their cycle side by side, and which do alone."""
     swept = lw.sweep(machine, {address: values}, outputs=["B.x max"], steps=steps)
     return swept.ok.tolist(), [alone(machine.with_dimensions({address: each}), steps) for each in values]

@@ -22,13 +22,7 @@ def model(a: float, b: float, c: float, d: float, start: float, side: float) -> 
     u = way / length
     pin = crank_pin + along * u + side * sqrt(b**2 - along**2) * np.array([-u[1], u[0]])
     x, y = map(float, pin)
-    drawn = {
-        "A": tuple(crank_pin),
-        "B": (x, y),
-        "P": (x + 2, y + 0.2),
-        "Q": (x + 3, y + 0.3),
-        "R": (x + 2.6, y - 1),
-    }
+    drawn = {"A": tuple(crank_pin), "B": (x, y), "P": (x + 2, y + 0.2), "Q": (x + 3, y + 0.3), "R": (x + 2.6, y - 1)}
     made = lw.Model("four-bar with a triad")
     made.frame(O1=(0, 0), O2=(d, 0), Q1=(x + 4, y + 1), Q2=(x + 3, y - 3.2))
     made.link("crank", ["O1", "A"], length=a)
@@ -61,8 +55,7 @@ def test_note_motion_and_range_agree() -> None:
     assert turned.min() == pytest.approx(0.0, abs=2 * pi / 361) and turned.min() > 0.0
     refused = [outcome.sentence for outcome in motion.outcomes if not outcome.ok]
     assert any(
-        said.values["links"] == ("coupler", "rocker") and said.values["where"] == "driver = 0°"
-        for said in refused
+        said.values["links"] == ("coupler", "rocker") and said.values["where"] == "driver = 0°" for said in refused
     )
 
 

@@ -45,9 +45,7 @@ def test_an_interrupted_study_goes_on_from_its_file(
     assert resumed.data() == whole.data() and resumed.text("zh") == whole.text("zh")
 
 
-def test_a_killed_process_goes_on_with_the_same_bytes(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_killed_process_goes_on_with_the_same_bytes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(STUDY) == 0
     whole, state = capsys.readouterr().out, tmp_path / "parts.state"
     command = [sys.executable, "-m", "linkwright", *STUDY, "--state", str(state)]

@@ -20,9 +20,7 @@ Floats = NDArray[np.float64]
 def test_numbers_of_an_input_that_swings_often_take_no_more_work_at_few_positions() -> None:
     """Ten swings in 36 steps: no reading between two positions is sure, and each was followed by itself."""
     mechanism = lw.loads(
-        text("stephenson_sixbar_triad")
-        .replace("t/(2 s)", "t/(0.2 s)")
-        .replace("cycle:", "cycle: {duration: 2 s}\n#")
+        text("stephenson_sixbar_triad").replace("t/(2 s)", "t/(0.2 s)").replace("cycle:", "cycle: {duration: 2 s}\n#")
     )
     found = []
     for steps in (36, 720):
@@ -97,9 +95,7 @@ def test_on_a_line_of_two_drivers_what_is_reached_is_reached_from_either_side() 
     out of reach, is reached the other way round, as it is where the crank turns alone."""
     pair = turning(1).replace("driver: {", "drivers:\n  driver: {")
     pair = pair.replace("links:\n", "links:\n  block: {points: [Z]}\n", 1)
-    joints = (
-        "joints: {bed: {kind: prismatic, guide: frame, through: O1, direction: 0 deg, block: block, at: Z}}\n"
-    )
+    joints = "joints: {bed: {kind: prismatic, guide: frame, through: O1, direction: 0 deg, block: block, at: Z}}\n"
     pushed = lw.loads(joints.lstrip() + pair.lstrip() + "  push: {slide: bed, speed: 0.1 m/s}\n")
     q = np.radians(160.0 + np.linspace(0.0, 350.0, 9))
     one = lw.solve_motion(lw.loads(turning(1)), at=q, failures="mark")

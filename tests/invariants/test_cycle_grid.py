@@ -50,9 +50,7 @@ def test_laws_that_bend_between_the_positions_are_cut_where_they_bend() -> None:
         assert table.value("peak_input_torque") == pytest.approx(peak, rel=1e-12)
         assert table.value("rms_input_torque") == pytest.approx(np.sqrt(squares), rel=1e-12)
     swept = lw.sweep(
-        crank,
-        {"loads.brake.damping": np.array([0.5, 0.7])},
-        outputs=["peak_input_torque", "rms_input_torque"],
+        crank, {"loads.brake.damping": np.array([0.5, 0.7])}, outputs=["peak_input_torque", "rms_input_torque"]
     )
     assert swept["peak_input_torque"][1] == pytest.approx(peak, rel=1e-12)
     assert swept["rms_input_torque"][1] == pytest.approx(np.sqrt(squares), rel=1e-12)

@@ -77,10 +77,7 @@ def test_slopes_of_a_tangent_mechanism() -> None:
     machine = stored("tangent_mechanism")
     distance, end = 0.12, np.radians(40.0)
     rate = distance / np.cos(end) ** 2
-    wanted = {
-        "velocity_ratio": (rate, rate / distance),
-        "stroke": (2 * distance * np.tan(end), 2 * np.tan(end)),
-    }
+    wanted = {"velocity_ratio": (rate, rate / distance), "stroke": (2 * distance * np.tan(end), 2 * np.tan(end))}
     for name, (value, slope) in wanted.items():
         own, (gradient,) = (objective := lw.objective(machine, name, vary=["frame.V.x"]))(objective.start)
         assert (own, gradient) == pytest.approx((value, slope), rel=1e-11)
@@ -136,9 +133,7 @@ def gone(course: str, crank: complex, rod: complex) -> tuple[complex, complex]:
         ("direction: 0 deg, magnitude: 100 N, phase: {moving: guide, direction: decreasing}", 1),
     ],
 )
-def test_power_against_a_load_that_goes_by_a_velocity_is_that_of_the_way(
-    course: str, load: str, which: int
-) -> None:
+def test_power_against_a_load_that_goes_by_a_velocity_is_that_of_the_way(course: str, load: str, which: int) -> None:
     """Force times way over the time, and its derivatives by complex steps."""
     machine, by = ram(course, load), ["crank.length", "rod.length"]
     points = [(0.05, 0.16), (0.051, 0.158), (0.0485, 0.161)]
@@ -206,9 +201,7 @@ def test_designs_whose_limits_are_others_are_found_alone() -> None:
     than the machine itself."""
     law, cycle, *_ = INWARDS["program"]
     load = "direction: 0 deg, magnitude: 100 N, phase: {of: guide, from: max, to: min}"
-    text = (
-        RAM.replace("LAW", law.replace("2.6 rad", "2.93 rad")).replace("CYCLE", cycle).replace("LOAD", load)
-    )
+    text = RAM.replace("LAW", law.replace("2.6 rad", "2.93 rad")).replace("CYCLE", cycle).replace("LOAD", load)
     machine = lw.loads(text)
     columns = {"crank.length": np.array([0.05, 0.09])}
     swept = lw.sweep(machine, columns, outputs=["rms_input_torque"])
@@ -257,9 +250,7 @@ def test_slopes_through_friction_that_turns_round_are_those_of_differences(name:
         value, (slope,) = (objective := lw.objective(machine, asked, vary=[address]))(objective.start)
         far = [metrics(_alone(machine, columns, k), [asked]).value(asked) for k in range(4)]
         difference = (far[0] - 8 * far[1] + 8 * far[2] - far[3]) / (12 * step)
-        assert slope == pytest.approx(
-            difference, rel=3e-6, abs=1e-7 * abs(value) / machine.dimension(address)
-        )
+        assert slope == pytest.approx(difference, rel=3e-6, abs=1e-7 * abs(value) / machine.dimension(address))
 
 
 @pytest.mark.rotating

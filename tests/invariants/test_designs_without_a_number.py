@@ -45,9 +45,7 @@ def test_designs_whose_stroke_has_tied_limits_have_no_ratio_and_the_others_keep_
     machine = lw.loads(TOGGLE.replace("DIRECTION", f"{base} deg"))
     columns = {"guide.direction": np.radians(DIRECTIONS)}
     swept = lw.sweep(machine, columns, outputs=NAMES, steps=72)
-    study = lw.study(
-        machine, {"guide.direction": columns["guide.direction"].tolist()}, metrics=NAMES, steps=72
-    )
+    study = lw.study(machine, {"guide.direction": columns["guide.direction"].tolist()}, metrics=NAMES, steps=72)
     for found in (swept, study):
         assert found[NAMES[0]][:2] == pytest.approx(ratio(), rel=1e-9)
         assert np.isnan(found[NAMES[0]][2])

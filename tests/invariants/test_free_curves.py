@@ -122,14 +122,7 @@ def test_a_curve_is_read_from_a_file(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "rows",
-    [
-        "1,2\n1,5 2,5\n",
-        "1,5 2,5\n3,5 4,5\n",
-        "0,1\nnan,2\n3,4",
-        "0,1\n1e400,2\n3,4",
-        "1 mm, 2 mm\n3 mm, 4 mm",
-    ],
+    "rows", ["1,2\n1,5 2,5\n", "1,5 2,5\n3,5 4,5\n", "0,1\nnan,2\n3,4", "0,1\n1e400,2\n3,4", "1 mm, 2 mm\n3 mm, 4 mm"]
 )
 def test_rows_that_are_not_two_numbers_are_refused(rows: str, tmp_path: Path) -> None:
     table = tmp_path / "a.csv"

@@ -174,9 +174,7 @@ def test_design_numbers_with_friction_go_side_by_side_with_gradients(
             assert found[name][k] == pytest.approx(alone.value(*name.split()), rel=1e-10)
     objective = lw.objective(machine, "rms_input_torque", vary=by)
     assert objective(objective.start)[1] == pytest.approx(
-        differences(
-            machine, by, lambda forces: lw.metrics(forces, ["rms_input_torque"]).value("rms_input_torque")
-        ),
+        differences(machine, by, lambda forces: lw.metrics(forces, ["rms_input_torque"]).value("rms_input_torque")),
         rel=1e-5,
     )
 
@@ -263,10 +261,7 @@ def yoke_numbers(slot: complex, bed: complex, mass: complex) -> np.ndarray:
     drive = mass * (-0.1 * 81.0 * np.cos(angle)) + 70.0
     normal = drive / (1.0 - slot * bed * np.sign(-np.sin(angle)) * np.sign(drive.real))
     rubbing = slot * normal * np.sign(normal.real) * np.abs(np.cos(angle))
-    torque, shares = (
-        0.1 * (rubbing - normal * np.sin(angle)),
-        (weights[:, None] * half).ravel() / (2.0 * np.pi),
-    )
+    torque, shares = (0.1 * (rubbing - normal * np.sin(angle)), (weights[:, None] * half).ravel() / (2.0 * np.pi))
     return np.array([np.sqrt(shares @ torque**2), 9.0 * (shares @ torque)])
 
 

@@ -31,9 +31,7 @@ def deepest(gear: lw.Gear, places: np.ndarray) -> float:
         flank = radius <= form
         half = np.where(flank, gear.half_angle(np.clip(radius, tip, form)), foot)
         depth = np.minimum((angle - half) * np.where(flank, base, radius), radius - tip)
-        return float(
-            np.where(radius > 0.5 * gear.root_diameter, radius - 0.5 * gear.root_diameter, depth).max()
-        )
+        return float(np.where(radius > 0.5 * gear.root_diameter, radius - 0.5 * gear.root_diameter, depth).max())
     flank = radius >= form
     half = np.where(flank, gear.half_angle(np.maximum(radius, form)), 0.5 * pitch - foot)
     depth = np.minimum((half - angle) * np.where(flank, base, radius), tip - radius)
@@ -66,9 +64,7 @@ def penetration(pair: GearPair, steps: int, points: int) -> float:
         ((19, 61), (0.5, 1.2), True),
     ],
 )
-def test_teeth_turn_through_a_full_mesh(
-    teeth: tuple[int, int], shifts: tuple[float, float], internal: bool
-) -> None:
+def test_teeth_turn_through_a_full_mesh(teeth: tuple[int, int], shifts: tuple[float, float], internal: bool) -> None:
     pair = lw.gear_pair(teeth, M, profile_shift=shifts, internal=internal)
     assert penetration(pair, 40, 200) <= DEEPEST
     assert penetration(GearPair(pair.pinion, pair.wheel, pair.centre_distance), 3, 60) <= DEEPEST
@@ -84,12 +80,8 @@ def test_the_measure_of_penetration_sees_a_wheel_that_is_turned_too_far() -> Non
     assert deepest(pair.pinion, wheel) == pytest.approx(1e-4 * 0.5 * pair.wheel.base_diameter, rel=0.02)
 
 
-@pytest.mark.parametrize(
-    ("teeth", "shift"), [(12, 0.6), (10, 0.0), (7, 0.2), (30, -0.3), (17, 0.0), (80, 0.9)]
-)
-def test_the_rack_tool_touches_every_point_of_flank_and_fillet_and_enters_none(
-    teeth: int, shift: float
-) -> None:
+@pytest.mark.parametrize(("teeth", "shift"), [(12, 0.6), (10, 0.0), (7, 0.2), (30, -0.3), (17, 0.0), (80, 0.9)])
+def test_the_rack_tool_touches_every_point_of_flank_and_fillet_and_enters_none(teeth: int, shift: float) -> None:
     """The tool by itself: straight flanks and a rounded tip, rolling without slip on the pitch circle."""
     gear = lw.Gear(teeth, M, shift)
     alpha, r = gear.pressure_angle, 0.5 * gear.pitch_diameter
@@ -145,9 +137,7 @@ def test_outlines_close_have_their_radii_and_are_the_same_at_every_tooth() -> No
         ends = sorted((0.5 * gear.tip_diameter, 0.5 * gear.root_diameter))
         assert (radii.min(), radii.max()) == pytest.approx(ends, rel=1e-12)
         count = len(outline) // gear.teeth
-        assert turned(outline, 2 * math.pi / gear.teeth) == pytest.approx(
-            np.roll(outline, -count, axis=0), abs=1e-15
-        )
+        assert turned(outline, 2 * math.pi / gear.teeth) == pytest.approx(np.roll(outline, -count, axis=0), abs=1e-15)
         x, y = outline.T
         assert 0.5 * float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))) > 0
         steps = np.hypot(*(outline - np.roll(outline, 1, axis=0)).T)
@@ -168,17 +158,9 @@ def test_rack_is_a_gear_of_very_many_teeth() -> None:
 @pytest.mark.parametrize(
     ("make", "code", "values"),
     [
-        (
-            lambda: lw.Gear(3, M),
-            "gears.out_of_range",
-            {"name": "teeth", "value": "3", "low": "4", "high": "2000"},
-        ),
+        (lambda: lw.Gear(3, M), "gears.out_of_range", {"name": "teeth", "value": "3", "low": "4", "high": "2000"}),
         (lambda: lw.Gear(12, M, 1.2), "gears.pointed", {"tip": 49.2}),
-        (
-            lambda: lw.Gear(30, M, internal=True),
-            "gears.ring_tip",
-            {"tip": 84.0, "base": 90 * math.cos(math.pi / 9)},
-        ),
+        (lambda: lw.Gear(30, M, internal=True), "gears.ring_tip", {"tip": 84.0, "base": 90 * math.cos(math.pi / 9)}),
         (lambda: lw.Gear(12, -M), "gears.out_of_range", {"name": "module"}),
         (lambda: GearPair(lw.Gear(12, M), lw.Gear(24, 2 * M)), "gears.differ", {"name": "module"}),
         (
@@ -187,11 +169,7 @@ def test_rack_is_a_gear_of_very_many_teeth() -> None:
             {"ring": 29, "pinion": 30},
         ),
         (lambda: lw.gear_pair((8, 9), M, profile_shift=(-1.0, -1.0)), "gears.no_flank", {"tip": 24.0}),
-        (
-            lambda: lw.gear_pair((20, 30), M).save_dxf("no/such/a.dxf"),
-            "file.no_folder",
-            {"path": Path("no/such")},
-        ),
+        (lambda: lw.gear_pair((20, 30), M).save_dxf("no/such/a.dxf"), "file.no_folder", {"path": Path("no/such")}),
     ],
 )
 def test_what_cannot_be_made_says_why(make: object, code: str, values: dict[str, object]) -> None:

@@ -25,10 +25,7 @@ def alone(tmp_path_factory: pytest.TempPathFactory) -> dict[str, NDArray[np.floa
     """Torques of the edited machines, found by a process that has solved nothing else."""
     file = tmp_path_factory.mktemp("alone") / "torques.npz"
     subprocess.run(
-        [sys.executable, "-m", "tests.invariants.edited_machines", str(file)],
-        cwd=ROOT,
-        check=True,
-        timeout=300,
+        [sys.executable, "-m", "tests.invariants.edited_machines", str(file)], cwd=ROOT, check=True, timeout=300
     )
     with np.load(file) as found:
         return dict(found)

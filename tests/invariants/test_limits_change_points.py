@@ -138,6 +138,4 @@ def test_single_positions_follow_the_word_of_the_file() -> None:
     motion = lw.solve_motion(mechanism, at=np.radians([30.0, 100.0, 300.0]))
     single = lw.solve_motion(mechanism, at=radians(300.0))
     assert motion.link("rocker").direction[2] == pytest.approx(single.link("rocker").direction[0])
-    assert motion.link("rocker").angle[2] % (2 * pi) == pytest.approx(
-        single.link("rocker").angle[0] % (2 * pi)
-    )
+    assert motion.link("rocker").angle[2] % (2 * pi) == pytest.approx(single.link("rocker").angle[0] % (2 * pi))

@@ -25,9 +25,7 @@ CHANGE_POINTS = {"change_point_fourbar", "truss", "two_bars_equilibrium"}
 def outputs(mechanism: lw.Mechanism) -> list[str]:
     """Links, but blocks on the frame, whose names mean their displacement; guides, mass centres."""
     guides = [name for name, joint in mechanism.joints.items() if joint.kind == "prismatic"]
-    blocks = {
-        link for name in guides if "frame" in (joined := mechanism.joints[name].joined) for link in joined
-    }
+    blocks = {link for name in guides if "frame" in (joined := mechanism.joints[name].joined) for link in joined}
     points = [f"{link}.{point}.{axis}" for link in mechanism.links for point in ("centre",) for axis in "xy"]
     known = [text for text in points if text.split(".")[1] in mechanism.links[text.split(".")[0]].points]
     return [*(name for name in mechanism.links if name not in blocks), *guides, *known]
@@ -116,9 +114,7 @@ def test_rest_between_rise_and_fall_is_one_limit() -> None:
 
 def test_kink_of_a_linear_table_is_a_limit() -> None:
     law = "table: {time: [0 s, 0.7 s, 2 s], position: [0 m, 0.1 m, 0 m], interpolation: linear}"
-    low, high = sorted(
-        limit_positions(lw.solve_motion(driven(law), steps=33), "guide"), key=lambda e: e.value
-    )
+    low, high = sorted(limit_positions(lw.solve_motion(driven(law), steps=33), "guide"), key=lambda e: e.value)
     assert (low.kind, high.kind) == ("min", "max")
     assert high.time == pytest.approx(0.7, abs=1e-12)
     assert min(low.time, 2.0 - low.time) == pytest.approx(0.0, abs=1e-12)  # the cycle's end is its beginning
@@ -232,9 +228,7 @@ def test_a_circle_reverses_at_its_four_ends(
 
 
 @pytest.mark.parametrize("speed", [1.0, -1.0])
-@pytest.mark.parametrize(
-    ("length", "start"), [(0.26, 2.0), (0.26, 358.0), (0.28, 0.5), (0.251, 2.0), (0.24, 2.0)]
-)
+@pytest.mark.parametrize(("length", "start"), [(0.26, 2.0), (0.26, 358.0), (0.28, 0.5), (0.251, 2.0), (0.24, 2.0)])
 def test_two_reversals_between_neighbours_of_a_machine_at_constant_speed(
     length: float, start: float, speed: float
 ) -> None:
@@ -271,9 +265,16 @@ def test_a_way_back_of_less_than_a_ten_millionth_is_no_reversal(excess: float, c
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 @pytest.mark.parametrize(
     ("first", "apart", "third"),
-    [(0.91, 0.06, 1.7), (0.905, 0.09, 0.3), (0.95, 0.01, 1.13), (0.93, 0.03, 0.86), (0.901, 0.02, -2.0),
-     (0.97, 0.025, 1.03), (0.942, 0.055, 40.0)],
-)  # fmt: skip
+    [
+        (0.91, 0.06, 1.7),
+        (0.905, 0.09, 0.3),
+        (0.95, 0.01, 1.13),
+        (0.93, 0.03, 0.86),
+        (0.901, 0.02, -2.0),
+        (0.97, 0.025, 1.03),
+        (0.942, 0.055, 40.0),
+    ],
+)
 def test_two_reversals_of_a_rate_that_is_a_cubic_are_always_found(
     first: float, apart: float, third: float, sign: float
 ) -> None:

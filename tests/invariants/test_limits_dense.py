@@ -56,13 +56,12 @@ CASES: dict[str, tuple[Callable[[], lw.Mechanism], int]] = {
     "two drivers": (lambda: lw.loads(ARM.replace("LENGTH", "0.6").replace("SPEED", "-2").replace("START", "7")), 30),
     "out of reach": (lambda: fourbar(3, 1, 2.8, 3.2, start=50), 90),
     "change point": (lambda: fourbar(1, 3, 2, 4, start=3), 37),
-    "turns through a change point": (
-        lambda: twice(fourbar(1, 3, 2, 4, start=3)), 61),
+    "turns through a change point": (lambda: twice(fourbar(1, 3, 2, 4, start=3)), 61),
     "triad": (lambda: gallery("triad"), 30),
     "triad to and fro": (lambda: gallery("stephenson_sixbar_triad"), 24),
     "gears": (lambda: gallery("geared_fivebar"), 36),
     "slide": (lambda: driven('position: "0.1 m*sin(2*pi*t/(2 s))^3 + 0.01 m*t/(1 s)"'), 41),
-}  # fmt: skip
+}
 
 
 def outputs(mechanism: lw.Mechanism) -> list[str]:
@@ -92,9 +91,7 @@ def speed(motion: lw.Motion) -> float:
     return max(float(np.nanmax(np.abs(rows(motion, each)[1]))) for each in outputs(motion.mechanism))
 
 
-def reversals(
-    coarse: lw.Motion, fine: lw.Motion, rate: Floats, share: int, wraps: bool
-) -> list[tuple[int, str]]:
+def reversals(coarse: lw.Motion, fine: lw.Motion, rate: Floats, share: int, wraps: bool) -> list[tuple[int, str]]:
     """Numbers of the fine positions behind which the rate changes its sign, where both coarse neighbours can be
     reached, and whether it changes to falling or to growing as time goes on. Zeros have the sign that follows."""
     n = len(rate)

@@ -49,8 +49,7 @@ def ends(found: Any) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize(
-    ("a", "b", "c", "d"),
-    [(3.0, 2.0, 2.5, 4.0), (2.0, 1.5, 1.5, 2.2), (1.7, 1.1, 1.4, 1.3), (1.5, 2.5, 0.9, 1.6)],
+    ("a", "b", "c", "d"), [(3.0, 2.0, 2.5, 4.0), (2.0, 1.5, 1.5, 2.2), (1.7, 1.1, 1.4, 1.3), (1.5, 2.5, 0.9, 1.6)]
 )
 @pytest.mark.parametrize("mode", ["left", "right"])
 @pytest.mark.parametrize("share", [-0.93, 0.1, 0.7])
@@ -224,9 +223,7 @@ def test_a_pushed_ram_goes_as_far_as_the_crank_would_take_it(shift: str) -> None
     driver, which holds a bearing, stays at its start."""
     assembly = "assembly: {B: left, D: forward}\n"
     still = HELD.replace("SHIFT", shift).replace("+ 1 mm", "+ 0 mm")
-    drivers = (
-        "drivers: {turn: {turn: crank, about: O1, speed: 1 rad/s}, hold: {slide: bed, position: STILL}}\n"
-    )
+    drivers = "drivers: {turn: {turn: crank, about: O1, speed: 1 rad/s}, hold: {slide: bed, position: STILL}}\n"
     cranked = lw.loads(SIX + assembly + drivers.replace("STILL", still) + "cycle: {turns: 1}\n")
     motion = lw.solve_motion(cranked, steps=90)
     swing = sorted(each.value for each in limit_positions(motion, "way"))

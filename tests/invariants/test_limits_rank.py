@@ -32,9 +32,7 @@ def test_the_mobility_of_the_gallery_is_as_expected(name: str) -> None:
     ],
     ids=["coupled wheels", "trammel", "two guides", "platform"],
 )
-def test_passive_constraints_are_named_without_a_drawing(
-    text: str, fits: str, other: str, spare: str
-) -> None:
+def test_passive_constraints_are_named_without_a_drawing(text: str, fits: str, other: str, spare: str) -> None:
     """The classical examples: what others demand already by their lengths is told, by other lengths nothing is."""
     with refused("mobility.excess", lw.StructureError) as told:
         lw.solve_motion(lw.loads(text.replace("SIZE", fits)))

@@ -107,9 +107,7 @@ def test_cycles_of_three_turns_of_the_motor_go_side_by_side(load: str) -> None:
     assert prepared == pytest.approx(forces.input_torque, rel=1e-11, abs=1e-9)
     objective, step = lw.objective(mechanism, {"driver.effort rms": 1.0}, vary=[BY]), 1e-6
     values, slopes = objective.many(0.7 + step * np.array([[0.0], [-2.0], [-1.0], [1.0], [2.0]]))
-    assert slopes[0, 0] == pytest.approx(
-        values[1:] @ [1, -8, 8, -1] / (12 * step), rel=1e-6, abs=1e-7 * values[0]
-    )
+    assert slopes[0, 0] == pytest.approx(values[1:] @ [1, -8, 8, -1] / (12 * step), rel=1e-6, abs=1e-7 * values[0])
 
 
 def test_the_true_speed_of_a_motor_whose_cycle_is_three_turns_is_that_of_its_crank() -> None:

@@ -42,9 +42,7 @@ def test_designs_under_laws_of_every_kind_are_those_alone(load: str, law: str) -
 @pytest.mark.rotating
 @pytest.mark.parametrize("law", ONE_WAY)
 @pytest.mark.parametrize("load", BETWEEN_LIMITS)
-def test_loads_between_limits_of_designs_under_laws_are_those_alone_with_gradients(
-    load: str, law: str
-) -> None:
+def test_loads_between_limits_of_designs_under_laws_are_those_alone_with_gradients(load: str, law: str) -> None:
     mechanism = machine(law, BETWEEN_LIMITS[load])
     compare(mechanism, "rod.length", "driver")
     objective = lw.objective(mechanism, "input_torque rms", vary=["rod.length"], steps=90)
@@ -83,9 +81,7 @@ def test_designs_without_closed_form_take_their_loads(load: str) -> None:
         (SEVERAL_TURNS, "ramp: [3 N, 18 N], phase: {input: [200 deg, 30 deg]}", "rod.length"),
     ],
 )
-def test_what_moves_with_the_cycle_is_that_of_single_designs_as_well(
-    law: str, load: str, address: str
-) -> None:
+def test_what_moves_with_the_cycle_is_that_of_single_designs_as_well(law: str, load: str, address: str) -> None:
     compare(machine(law, load), address, "driver")
 
 

@@ -134,6 +134,4 @@ def test_mean_power_of_the_table_is_that_of_the_machine(name: str) -> None:
     """Found over the time there and over the angle here, from other steps: the jump of the load does not blur it."""
     forces = forces_of(name, steps=50)
     running = steady_running(forces_of(name), fluctuation=0.1)
-    assert metrics(forces, "mean_power").value("mean_power") == pytest.approx(
-        running.motor.mean_power, rel=1e-9
-    )
+    assert metrics(forces, "mean_power").value("mean_power") == pytest.approx(running.motor.mean_power, rel=1e-9)

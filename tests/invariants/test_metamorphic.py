@@ -77,9 +77,7 @@ def in_other_units(text: str) -> str:
     return NUMBER.sub(put, text)
 
 
-def alike(
-    a: tuple[lw.Motion, Any], b: tuple[lw.Motion, Any], names: Callable[[str], str] = lambda n: n
-) -> None:
+def alike(a: tuple[lw.Motion, Any], b: tuple[lw.Motion, Any], names: Callable[[str], str] = lambda n: n) -> None:
     """All positions, rates, reactions and efforts are equal but for rounding, which the condition enlarges."""
     (first, forces), (second, others) = a, b
     assert (first.ok == second.ok).all()
@@ -135,9 +133,7 @@ def test_other_names_change_nothing(seed: int) -> None:
     case = told(seed)
 
     def named(text: str) -> str:
-        return re.sub(
-            r"\b(l|P|s)(\d+)\b(?! [a-z])", lambda m: f"{'zyx'['lPs'.index(m[1])]}_{99 - int(m[2])}", text
-        )
+        return re.sub(r"\b(l|P|s)(\d+)\b(?! [a-z])", lambda m: f"{'zyx'['lPs'.index(m[1])]}_{99 - int(m[2])}", text)
 
     def all_named(value: Any) -> Any:
         if isinstance(value, dict):
@@ -164,14 +160,7 @@ def test_more_steps_hold_the_same_positions(seed: int) -> None:
             close(forces.driver_effort(name)[k : k + 1], others.driver_effort(name)[3 * k : 3 * k + 1], 1e-5)
 
 
-GALLERY = [
-    "crank_rocker",
-    "jaw_crusher_sixbar",
-    "shaper_quick_return",
-    "triad",
-    "dyad_rpr",
-    "class_four_group",
-]
+GALLERY = ["crank_rocker", "jaw_crusher_sixbar", "shaper_quick_return", "triad", "dyad_rpr", "class_four_group"]
 
 
 @pytest.mark.parametrize("name", GALLERY)
@@ -257,8 +246,7 @@ def test_a_planet_s_curve_has_one_length_whatever_the_steps(steps: int) -> None:
     length = 0.4 * np.abs(velocity).mean()
     area = 0.4 * np.imag(np.conj(z[0] + z[1]) * velocity).mean() / 2
     found = lw.metrics(
-        lw.solve_motion(stored("planetary_two_inputs"), steps=steps),
-        ["coupler_curve_length", "coupler_curve_area"],
+        lw.solve_motion(stored("planetary_two_inputs"), steps=steps), ["coupler_curve_length", "coupler_curve_area"]
     )
     assert found.value("coupler_curve_length", "planet_1.P1") == pytest.approx(length, rel=1e-9)
     assert found.value("coupler_curve_area", "planet_1.P1") == pytest.approx(area, rel=1e-9)
@@ -329,9 +317,7 @@ def test_loads_add_up(seed: int) -> None:
         one, bare = read(full)[motion.ok], read(none)[motion.ok]
         own = [read(part)[motion.ok] for part in parts]
         size = max(np.abs(each).max(initial=0.0) for each in (bare, *own))
-        assert bare + sum(each - bare for each in own) == pytest.approx(
-            one, rel=1e-6, abs=1e-6 * (1e-3 + size)
-        )
+        assert bare + sum(each - bare for each in own) == pytest.approx(one, rel=1e-6, abs=1e-6 * (1e-3 + size))
 
     for name in motion.mechanism.drivers:
         added(lambda forces: forces.driver_effort(name))  # noqa: B023

@@ -54,9 +54,7 @@ def test_numbers_by_arrays_and_compiled_are_equal(model: str, by: str) -> None:
     columns = {by: mechanism.dimension(by) * np.array([1.0, 0.99, 0.01, 1.01])}
     names = [name for name in numbers_alone(mechanism, {}, 0, NAMES) if name not in ALONE]
     assert len(names) >= 10
-    compiled, arrays = (
-        lw.sweep(mechanism, columns, outputs=names, backend=each) for each in ("llvm", "numpy")
-    )
+    compiled, arrays = (lw.sweep(mechanism, columns, outputs=names, backend=each) for each in ("llvm", "numpy"))
     assert compiled.ok.tolist() == arrays.ok.tolist() == [True, True, False, True]
     for name in names:
         one, other = (np.abs(each[name]) for each in (compiled, arrays))
@@ -99,14 +97,7 @@ def test_gradients_are_those_of_differences_of_machines_alone(name: str, by: lis
 def test_a_study_of_many_designs_equals_the_design_alone() -> None:
     """Numbers of the shared output and the flywheel among them; a design that cannot move is left out."""
     mechanism = stored("jaw_crusher_sixbar")
-    names = [
-        "travel",
-        "output_acceleration",
-        "pivot_reaction",
-        "flywheel",
-        "energy_fluctuation",
-        "peak_reaction",
-    ]
+    names = ["travel", "output_acceleration", "pivot_reaction", "flywheel", "energy_fluctuation", "peak_reaction"]
     lengths = mechanism.dimension("rocker.length") * np.array([*np.linspace(0.99, 1.01, 11), 30.0])
     many = lw.study(mechanism, {"rocker.length": lengths}, metrics=names, fluctuation=0.05)
     assert many.ok.tolist() == [True] * 11 + [False]
@@ -133,18 +124,14 @@ def test_a_metric_of_another_package_goes_the_same_way() -> None:
         needs_forces = True
 
         def numbers(self, analysis):
-            yield Number(
-                "O5", ("reaction O5 on jaw mean", "jaw.angle range"), lambda force, swing: force * swing
-            )
+            yield Number("O5", ("reaction O5 on jaw mean", "jaw.angle range"), lambda force, swing: force * swing)
 
     try:
         mechanism = stored("jaw_crusher_sixbar")
         objective = lw.objective(mechanism, {"pin_work": 2.0, "peak_power": 1e-3}, vary=["toggle.length"])
         value, gradient = objective(objective.start)
         table = metrics(lw.solve_forces(mechanism), ["pin_work", "peak_power"])
-        assert value == pytest.approx(
-            2 * table.value("pin_work") + 1e-3 * table.value("peak_power"), rel=1e-12
-        )
+        assert value == pytest.approx(2 * table.value("pin_work") + 1e-3 * table.value("peak_power"), rel=1e-12)
         step = 1e-5
         more, less = (objective(objective.start + sign * step)[0] for sign in (1, -1))
         assert gradient[0] == pytest.approx((more - less) / (2 * step), rel=1e-6)
@@ -165,9 +152,7 @@ def test_sweeps_and_sensitivities_take_design_numbers() -> None:
     number = next(iter(found.summaries))
     assert found.dimension(number) == "force"
 
-    slopes = lw.sensitivity(
-        crusher, of=["peak_reaction O5", "driver.effort rms"], by=["toggle.length", "jaw.mass"]
-    )
+    slopes = lw.sensitivity(crusher, of=["peak_reaction O5", "driver.effort rms"], by=["toggle.length", "jaw.mass"])
     objective = lw.objective(crusher, "peak_reaction O5", vary=["toggle.length", "jaw.mass"])
     value, gradient = objective(objective.start)
     assert slopes.value("peak_reaction O5") == pytest.approx(value, rel=1e-13)
@@ -250,6 +235,4 @@ def test_torques_and_powers_that_are_nothing_beside_the_forces_are_zero(asked: l
 def test_a_constant_power_is_its_mean_over_inputs_of_ones_own() -> None:
     """40 N·m on the wheel of twice the teeth at 600 rpm: 20 · 20 π W at the motor, however uneven the inputs."""
     motion = lw.solve_motion(stored("external_gear_pair"), at=[0.0, 0.1, 0.9, 1.0, 3.0])
-    assert lw.metrics(lw.solve_forces(motion), ["mean_power"]).value("mean_power") == pytest.approx(
-        400 * np.pi
-    )
+    assert lw.metrics(lw.solve_forces(motion), ["mean_power"]).value("mean_power") == pytest.approx(400 * np.pi)

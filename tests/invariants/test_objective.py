@@ -85,9 +85,7 @@ def test_weighted_sum_and_many_designs():
     crusher = stored(SIXBAR)
     names = LENGTHS[:2]
     both = lw.objective(crusher, {"driver.effort rms": 2.0, "reaction O5 on jaw max": -0.1}, vary=names)
-    one, other = (
-        lw.objective(crusher, t, vary=names) for t in ("driver.effort rms", "reaction O5 on jaw max")
-    )
+    one, other = (lw.objective(crusher, t, vary=names) for t in ("driver.effort rms", "reaction O5 on jaw max"))
     table = both.start * np.linspace(0.99, 1.01, 7)[:, None]
     values, gradients = both.many(table)
     assert both.values(table) == pytest.approx(values, rel=1e-13)
@@ -141,20 +139,29 @@ def test_a_design_that_cannot_turn_has_no_value():
     [
         ("triad", "driver.effort rms", ["A.length"], "study.no_dimension", {"address": "A.length"}),
         (
-            "jaw_crusher_sixbar", "driver.efort rms", ["crank.length"], "study.no_such_output",
+            "jaw_crusher_sixbar",
+            "driver.efort rms",
+            ["crank.length"],
+            "study.no_such_output",
             {"name": "driver.efort", "offer": "driver.effort"},
         ),
         (
-            "jaw_crusher_sixbar", "driver.effort argmax", ["crank.length"], "study.place_without_slope",
+            "jaw_crusher_sixbar",
+            "driver.effort argmax",
+            ["crank.length"],
+            "study.place_without_slope",
             {"name": "driver.effort argmax"},
         ),
         ("jaw_crusher_sixbar", "jaw.angle range", ["jaw.mass"], "study.objective_idle", {"names": ("jaw.mass",)}),
         (
-            "jaw_crusher_sixbar", "jaw.angle range", ["driver.start"], "study.moves_positions",
+            "jaw_crusher_sixbar",
+            "jaw.angle range",
+            ["driver.start"],
+            "study.moves_positions",
             {"address": "driver.start"},
         ),
     ],
-)  # fmt: skip
+)
 def test_refusals_say_why(model, terms, vary, code, values):
     with refused(code, **values):
         lw.objective(stored(model), terms, vary=vary)
@@ -214,16 +221,20 @@ CIRCLE = np.stack([np.cos(np.arange(9.0)), np.sin(np.arange(9.0))], axis=1)
     [
         (lw.PathError("coupler.P", CIRCLE[:, :1]), {}, "study.objective_target", {}),
         (
-            [lw.PathError("coupler.P", CIRCLE), lw.PathError("coupler.B", CIRCLE[:8])], {},
-            "study.objective_target", {},
+            [lw.PathError("coupler.P", CIRCLE), lw.PathError("coupler.B", CIRCLE[:8])],
+            {},
+            "study.objective_target",
+            {},
         ),
         (
-            lw.PathError("coupler.P", CIRCLE), {"at": [0.0, 1.0]}, "study.objective_count",
+            lw.PathError("coupler.P", CIRCLE),
+            {"at": [0.0, 1.0]},
+            "study.objective_count",
             {"points": 9, "positions": 2},
         ),
         ("hertz_pressure", {}, "study.no_such_output", {"name": "hertz_pressure"}),
     ],
-)  # fmt: skip
+)
 def test_paths_and_numbers_that_cannot_be_a_goal_are_refused(terms, options, code, values):
     with refused(code, **values):
         lw.objective(stored("crank_rocker"), terms, vary=["coupler.length"], **options)

@@ -54,9 +54,7 @@ def said(value: float, dimension: str) -> set[str]:
     """A value as diagrams may write it, in the unit of its size or a thousand times that."""
     unit = {"torque": "N·m", "force": "N", "angular_velocity": "rad/s", "energy": "J"}[dimension]
     scales = {"": 1.0, "k": 1e3, "M": 1e6}
-    return {
-        f"{significant(value / scale)} {prefix}{unit}".replace("−", "-") for prefix, scale in scales.items()
-    }
+    return {f"{significant(value / scale)} {prefix}{unit}".replace("−", "-") for prefix, scale in scales.items()}
 
 
 @pytest.fixture(scope="module", params=["pulse", "jaw_crusher_sixbar", "whitworth"])
@@ -190,9 +188,7 @@ def test_flywheels_are_laid_out_for_one_coefficient() -> None:
     assert f"J = {significant(running.exact_flywheel)}" in drawn
 
 
-def test_a_motor_of_the_mean_power_says_that_it_needs_its_flywheel(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_a_motor_of_the_mean_power_says_that_it_needs_its_flywheel(capsys: pytest.CaptureFixture[str]) -> None:
     """The power without one is the largest of the driver's torque times its speed, over 36 000 positions."""
     mechanism = machine("pulse")
     forces, fine = (lw.solve_forces(mechanism, steps=n) for n in (360, 36_000))

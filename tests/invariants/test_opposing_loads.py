@@ -48,11 +48,7 @@ CASES = {
         "phase: {of: guide, from: max, to: min, last: 0.4}",
         "rod.length",
     ),
-    "torque on a rocker": (
-        FOURBAR,
-        "kind: torque, on: rocker, opposes: velocity, magnitude: 30 N·m",
-        "rod.length",
-    ),
+    "torque on a rocker": (FOURBAR, "kind: torque, on: rocker, opposes: velocity, magnitude: 30 N·m", "rod.length"),
     "force on a rocker": (
         FOURBAR,
         "kind: force, on: rocker, at: B, opposes: velocity, magnitude: 80 N",
@@ -63,11 +59,7 @@ CASES = {
         "kind: force, on: rod, at: C, opposes: velocity, magnitude: 80 N",
         "crank.length",
     ),
-    "torque on a crank": (
-        FOURBAR,
-        "kind: torque, on: crank, opposes: velocity, magnitude: 5 N·m",
-        "rod.length",
-    ),
+    "torque on a crank": (FOURBAR, "kind: torque, on: crank, opposes: velocity, magnitude: 5 N·m", "rod.length"),
 }
 NUMBERS = ("rms_input_torque", "peak_input_torque", "peak_reaction A")
 METRICS = [each.split()[0] for each in NUMBERS]
@@ -143,9 +135,7 @@ def test_a_velocity_may_change_its_sign_more_often() -> None:
     mechanism, step = lw.loads(TWICE), 1e-5
     value, slope = lw.objective(mechanism, "rms_input_torque", vary=["rod.length"])([0.3])
     alone = [
-        lw.metrics(lw.solve_forces(mechanism.with_dimensions({"rod.length": length}))).value(
-            "rms_input_torque"
-        )
+        lw.metrics(lw.solve_forces(mechanism.with_dimensions({"rod.length": length}))).value("rms_input_torque")
         for length in (0.3, 0.3 + step, 0.3 - step)
     ]
     assert value == pytest.approx(alone[0], rel=1e-9)

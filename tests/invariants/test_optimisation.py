@@ -80,10 +80,7 @@ def test_numbers_with_dimensions_of_their_own(number: str) -> None:
 
 
 def test_whole_numbers_and_catalogues(press: Path) -> None:
-    vary = {
-        "crank.length": {"values": "20, 28, 33, 45 mm"},
-        "rod.length": {"values": ["150 mm", "170 mm", "200 mm"]},
-    }
+    vary = {"crank.length": {"values": "20, 28, 33, 45 mm"}, "rod.length": {"values": ["150 mm", "170 mm", "200 mm"]}}
     found = lw.optimize(press, vary=vary, evaluations=300)
     assert dict(found.best.values) == pytest.approx({"crank.length": 0.033, "rod.length": 0.170})
     listed = lw.optimize(press, vary=vary | {"crank.length": "45, 20, 33, 28 mm"}, evaluations=300)
@@ -133,9 +130,7 @@ def test_an_interrupted_search_goes_on_as_if_nothing_had_been(press: Path, tmp_p
             lw.optimize(changed, evaluations=800, seed=3, state=state)
 
 
-def test_an_interruption_says_from_which_file_it_goes_on(
-    press: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_interruption_says_from_which_file_it_goes_on(press: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(press.parent)
 
     def stop(done: int, most: int) -> None:
@@ -178,11 +173,7 @@ def test_designs_of_which_none_moves_and_numbers_that_none_has(press: Path) -> N
 def test_designs_pass_the_whole_cycle_where_no_number_needs_it() -> None:
     """A four-bar of 3.5, 2.5 and 4 m turns fully with cranks below 2 m (Grashof)."""
     bars = stored("crank_rocker")
-    assert [bars.dimension(each) for each in ("coupler.length", "rocker.length", "frame.O2.x")] == [
-        3.5,
-        2.5,
-        4,
-    ]
+    assert [bars.dimension(each) for each in ("coupler.length", "rocker.length", "frame.O2.x")] == [3.5, 2.5, 4]
     longest = lw.optimize(bars, vary={"crank.length": "0.5..3 m"}, maximize="r", define={"r": "crank.length"})
     assert 1.99 < longest.best.values["crank.length"] < 2.0
     lw.solve_motion(longest.mechanism(), steps=3600)
@@ -194,9 +185,13 @@ def test_designs_pass_the_whole_cycle_where_no_number_needs_it() -> None:
 def test_the_crusher_keeps_its_jaw_and_loses_torque() -> None:
     start = stored("jaw_crusher_sixbar")
     vary = {
-        "pitman.length": "1.15..1.35 m", "toggle.length": "1.05..1.25 m", "rocker.length": "0.9..1.1 m",
-        "crank.length": "0.08..0.12 m", "frame.O3.x": "0.85..1.05 m", "frame.O3.y": "-1.1..-0.9 m",
-    }  # fmt: skip
+        "pitman.length": "1.15..1.35 m",
+        "toggle.length": "1.05..1.25 m",
+        "rocker.length": "0.9..1.1 m",
+        "crank.length": "0.08..0.12 m",
+        "frame.O3.x": "0.85..1.05 m",
+        "frame.O3.y": "-1.1..-0.9 m",
+    }
     keep = {
         "jaw.angle range": "same within 1 %",
         "jaw.angle max": "same within 0.2 deg",
@@ -226,9 +221,7 @@ def test_a_front_against_closed_form(press: Path) -> None:
     found = lw.optimize(press, minimize="l", maximize="stroke guide", keep=keep, evaluations=1200)
     rows = np.array([[each.numbers["l"], each.numbers["stroke guide"]] for each in found])
     assert rows[:, 0] == pytest.approx(2.5 * rows[:, 1], rel=5e-4)
-    assert rows[0] == pytest.approx([0.12, 0.048], rel=5e-4) and rows[-1] == pytest.approx(
-        [0.4, 0.16], rel=1e-4
-    )
+    assert rows[0] == pytest.approx([0.12, 0.048], rel=5e-4) and rows[-1] == pytest.approx([0.4, 0.16], rel=1e-4)
     gaps = np.diff(rows[:, 0])
     assert len(rows) >= 40 and gaps.min() > 0.5 * gaps.mean() and gaps.max() < 2 * gaps.mean()
 
@@ -264,9 +257,9 @@ def test_tolerances_of_two_lengths_against_closed_form(press: Path) -> None:
     assert worst.best.values["crank.length"] == pytest.approx(0.0305, rel=1e-5)
     assert worst.best.values["rod.length"] == pytest.approx(0.156, rel=1e-5)
     at_worst = {"r + l": (0.188,), "stroke guide": (0.06,), "r/l": (0.2,)}
-    assert {
-        text: each == pytest.approx(at_worst[text], rel=1e-5) for text, each in worst.best.worst.items()
-    } == (dict.fromkeys(at_worst, True))
+    assert {text: each == pytest.approx(at_worst[text], rel=1e-5) for text, each in worst.best.worst.items()} == (
+        dict.fromkeys(at_worst, True)
+    )
     assert worst.best.made == 1.0
     most = lw.optimize(press, tolerance=tolerance, robust="yield", **{"yield": 0.9})
     assert most.best.made is not None and most.best.made >= 0.9
@@ -276,18 +269,14 @@ def test_tolerances_of_two_lengths_against_closed_form(press: Path) -> None:
         share_of_presses(crank, rod), abs=0.002
     )
     assert crank + rod == pytest.approx(min(map(length_that_serves, np.linspace(0.03, 0.0306, 61))), abs=2e-5)
-    narrow = {
-        "stroke guide": "60..60.5 mm"
-    }  # 2 · 0.25 mm of room for ± 1 mm: a quarter of the machines at best
+    narrow = {"stroke guide": "60..60.5 mm"}  # 2 · 0.25 mm of room for ± 1 mm: a quarter of the machines at best
     narrowed = ("stroke guide 60..60.5 mm (59.25 mm..61.25 mm)",)
     with refused("optimize.failing", lw.OptimizeError, demands=narrowed):
         lw.optimize(press, tolerance=tolerance, robust="worst", keep=narrow, evaluations=1500)
     with refused("optimize.failing_yield", lw.OptimizeError, wanted="99") as said:
         lw.optimize(press, tolerance=tolerance, robust="yield", keep=narrow, evaluations=1500)
     assert float(str(said.value.values["share"])) == pytest.approx(25.0, abs=1.0)
-    with pytest.raises(
-        lw.OptimizeError
-    ) as caught:  # no machine reaches 161 mm: the nearest has the largest crank
+    with pytest.raises(lw.OptimizeError) as caught:  # no machine reaches 161 mm: the nearest has the largest crank
         lw.optimize(press, tolerance=tolerance, robust="yield", keep={"stroke guide": "at least 161 mm"})
     assert caught.value.nearest.best.values["crank.length"] > 0.079
 
@@ -298,14 +287,17 @@ def test_a_yield_is_reached_by_machines_that_did_not_choose_the_design() -> None
     bars = stored("crank_rocker")
     tolerance = {"crank.length": 0.02, "coupler.length": 0.04, "rocker.length": 0.03}
     found = lw.optimize(
-        bars, vary={"crank.length": "0.4..1.8 m", "coupler.length": "1.6..6 m", "rocker.length": "1.2..4 m"},
-        maximize="rocker.angle range", keep={"transmission_angle": "at least 40 deg"}, robust="yield",
-        tolerance={name: f"{each} m" for name, each in tolerance.items()}, evaluations=1500, **{"yield": 0.95},
-    )  # fmt: skip
-    off = np.random.default_rng(1).uniform(-1.0, 1.0, (3, 100_000))
-    a, b, c = (
-        found.best.values[name] + each * row for (name, each), row in zip(tolerance.items(), off, strict=True)
+        bars,
+        vary={"crank.length": "0.4..1.8 m", "coupler.length": "1.6..6 m", "rocker.length": "1.2..4 m"},
+        maximize="rocker.angle range",
+        keep={"transmission_angle": "at least 40 deg"},
+        robust="yield",
+        tolerance={name: f"{each} m" for name, each in tolerance.items()},
+        evaluations=1500,
+        **{"yield": 0.95},
     )
+    off = np.random.default_rng(1).uniform(-1.0, 1.0, (3, 100_000))
+    a, b, c = (found.best.values[name] + each * row for (name, each), row in zip(tolerance.items(), off, strict=True))
     cosines = np.abs([(b**2 + c**2 - (4.0 + side * a) ** 2) / (2 * b * c) for side in (-1, 1)]).max(axis=0)
     share = float((cosines <= math.cos(math.radians(40))).mean())
     assert share > 0.947
@@ -324,12 +316,7 @@ def test_a_path_that_a_known_linkage_draws_is_followed() -> None:
     assert found.best.numbers["path_error"] < 1e-10
     loose = {"frame.O2.x": "1 mm", "crank.length": "1 mm"}
     made = lw.optimize(
-        start,
-        vary=vary,
-        minimize=lw.PathError("coupler.P", target),
-        tolerance=loose,
-        robust="worst",
-        evaluations=600,
+        start, vary=vary, minimize=lw.PathError("coupler.P", target), tolerance=loose, robust="worst", evaluations=600
     )
     (worst,) = made.best.worst["path_error"]
     crank = made.best.values["crank.length"]
@@ -337,9 +324,7 @@ def test_a_path_that_a_known_linkage_draws_is_followed() -> None:
         ((lw.solve_motion(each, steps=36).point("coupler.P").position - target) ** 2).sum(axis=1).mean()
         for a in (-1e-3, 1e-3)
         for b in (-1e-3, 1e-3)
-        for each in [
-            start.with_dimensions({**made.best.values, "frame.O2.x": 4.0 + a, "crank.length": crank + b})
-        ]
+        for each in [start.with_dimensions({**made.best.values, "frame.O2.x": 4.0 + a, "crank.length": crank + b})]
     ]
     assert worst == pytest.approx(max(errors), rel=1e-6)
     rows = [[f"{x:.15g} m", f"{y:.15g} m"] for x, y in target]
@@ -348,16 +333,17 @@ def test_a_path_that_a_known_linkage_draws_is_followed() -> None:
     assert min(each.numbers["shape"] for each in both) < 1e-7
     assert min(each.numbers["c"] for each in both) == pytest.approx(0.9 * 1.04, rel=1e-3)
     with refused("type", lw.ModelError):
-        lw.optimize(
-            start, vary=vary, minimize="shape", define={"shape": {"point": "coupler.P", "target": [3]}}
-        )
+        lw.optimize(start, vary=vary, minimize="shape", define={"shape": {"point": "coupler.P", "target": [3]}})
 
 
 def test_teeth_change_the_cycle_and_are_varied_one_by_one() -> None:
     found = lw.optimize(
-        lw.loads(GEARS), vary={"count": {"whole": "45..60"}}, minimize="count", evaluations=60,
+        lw.loads(GEARS),
+        vary={"count": {"whole": "45..60"}},
+        minimize="count",
+        evaluations=60,
         keep={"peak_input_torque": "at most 15 N·m"},
-    )  # fmt: skip
+    )
     assert found.best.values["count"] == 54  # 20 · 40 N·m / 15 N·m = 53.3
     assert found.best.numbers["peak_input_torque"] == pytest.approx(800 / 54)
     assert found.mechanism().dimension("mesh.teeth.1") == 54
@@ -368,9 +354,12 @@ def test_few_pairs_of_teeth_are_all_judged() -> None:
         GEARS.replace("20 +", "small +").replace("[20,", "[small,").replace("{count", "{small: 20, count")
     )
     found = lw.optimize(
-        pair, vary={"small": {"whole": "17..20"}, "count": {"whole": "30..34"}}, evaluations=60,
-        minimize=["peak_input_torque", "s + c"], define={"s": "small", "c": "count"},
-    )  # fmt: skip
+        pair,
+        vary={"small": {"whole": "17..20"}, "count": {"whole": "30..34"}},
+        evaluations=60,
+        minimize=["peak_input_torque", "s + c"],
+        define={"s": "small", "c": "count"},
+    )
     # the torque 40 N·m · small / count grows with small, as the sum does: the front has the least pinion
     front = [(17.0, float(count)) for count in range(34, 29, -1)]
     assert sorted(tuple(each.values.values()) for each in found) == sorted(front)
@@ -380,9 +369,11 @@ def test_all_trains_are_judged_where_nothing_has_to_be_solved() -> None:
     teeth = {"small": (17, 24), "count": (40, 70), "third": (17, 24), "fourth": (40, 70)}
     text = GEARS.replace("{count: 40}", "{count: 40, small: 20, third: 20, fourth: 60}")
     found = lw.optimize(
-        lw.loads(text), vary={name: {"whole": f"{low}..{high}"} for name, (low, high) in teeth.items()},
-        minimize="2*(small + count) + 3*(third + fourth)", keep={"count*fourth/(small*third)": "7.29..7.31"},
-    )  # fmt: skip
+        lw.loads(text),
+        vary={name: {"whole": f"{low}..{high}"} for name, (low, high) in teeth.items()},
+        minimize="2*(small + count) + 3*(third + fourth)",
+        keep={"count*fourth/(small*third)": "7.29..7.31"},
+    )
     trains = np.array([*product(*(range(low, high + 1) for low, high in teeth.values()))])
     ratio = trains[:, 1] * trains[:, 3] / (trains[:, 0] * trains[:, 2])
     sizes = trains @ [2, 2, 3, 3]
@@ -421,9 +412,14 @@ loads: {spring: {kind: force, on: slide, at: P, direction: -90 deg, magnitude: 6
 
 def test_the_least_cam_whose_follower_presses_no_harder_on_its_guide() -> None:
     found = lw.optimize(
-        lw.loads(CAM), vary={"lobe.base_radius": "20..80 mm"}, minimize="b", define={"b": "lobe.base_radius"},
-        keep={"peak_reaction guide": "at most 15 N"}, evaluations=400, steps=720,
-    )  # fmt: skip
+        lw.loads(CAM),
+        vary={"lobe.base_radius": "20..80 mm"},
+        minimize="b",
+        define={"b": "lobe.base_radius"},
+        keep={"peak_reaction guide": "at most 15 N"},
+        evaluations=400,
+        steps=720,
+    )
     # by hand: the guide takes (F + m a) tan α, tan α = s' / (R + s), R = base radius + roller
     over, lift, speed = math.radians(110), 0.02, 4 * math.pi
     t = np.linspace(0, 1, 200001)
@@ -441,23 +437,28 @@ def test_the_least_cam_whose_follower_presses_no_harder_on_its_guide() -> None:
     ("settings", "code", "key", "values"),
     [
         (
-            {"vary": {"crank.lenght": "20..80 mm"}}, "study.no_dimension", "optimize.vary.crank.lenght",
+            {"vary": {"crank.lenght": "20..80 mm"}},
+            "study.no_dimension",
+            "optimize.vary.crank.lenght",
             {"address": "crank.lenght", "offer": "crank.length"},
         ),
         (
-            {"vary": {"crank.length": "20..20 mm"}}, "optimize.bounds", "optimize.vary.crank.length",
+            {"vary": {"crank.length": "20..20 mm"}},
+            "optimize.bounds",
+            "optimize.vary.crank.length",
             {"address": "crank.length"},
         ),
+        ({"keep": {"stroke guide": "more than 2"}}, "demand", "optimize.keep.stroke guide", {"given": "more than 2"}),
         (
-            {"keep": {"stroke guide": "more than 2"}}, "demand", "optimize.keep.stroke guide",
-            {"given": "more than 2"},
-        ),
-        (
-            {"keep": {"stroke guide": "at least 2 kg"}}, "wrong-dimension", "optimize.keep.stroke guide",
+            {"keep": {"stroke guide": "at least 2 kg"}},
+            "wrong-dimension",
+            "optimize.keep.stroke guide",
             {"given": "2 kg", "right": "2 mm"},
         ),
         (
-            {"keep": {"stroke guide": "90..50 mm"}}, "falling-demand", "optimize.keep.stroke guide",
+            {"keep": {"stroke guide": "90..50 mm"}},
+            "falling-demand",
+            "optimize.keep.stroke guide",
             {"low": "90 mm", "high": "50 mm"},
         ),
         ({"minimize": "nothing at all"}, "study.no_metric", None, {"name": "nothing at all"}),
@@ -466,10 +467,8 @@ def test_the_least_cam_whose_follower_presses_no_harder_on_its_guide() -> None:
         ({"robust": "worst"}, "no-tolerance", "optimize.tolerance", {}),
         ({"evaluations": 0}, "range", "optimize.evaluations", {"text": "0"}),
     ],
-)  # fmt: skip
-def test_settings_that_cannot_be_read(
-    press: Path, settings: dict, code: str, key: str | None, values: dict
-) -> None:
+)
+def test_settings_that_cannot_be_read(press: Path, settings: dict, code: str, key: str | None, values: dict) -> None:
     with refused(code, **values) as said:
         lw.optimize(press, **settings)
     assert key is None or [each.key for each in said.value.findings] == [key]
@@ -485,8 +484,6 @@ def test_designs_that_go_one_by_one_are_polished_by_differences() -> None:
         return lw.metrics(forces, ["rms_input_torque"]).value("rms_input_torque")
 
     searched = minimize_scalar(torque, bounds=(0.045, 0.055), method="bounded", options={"xatol": 1e-6})
-    found = lw.optimize(
-        machine, vary={"crank.length": "45..55 mm"}, minimize="rms_input_torque", evaluations=30
-    )
+    found = lw.optimize(machine, vary={"crank.length": "45..55 mm"}, minimize="rms_input_torque", evaluations=30)
     assert found.best.values["crank.length"] == pytest.approx(searched.x, abs=2e-6)
     assert found.best.numbers["rms_input_torque"] == pytest.approx(searched.fun, rel=1e-9)

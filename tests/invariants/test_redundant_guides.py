@@ -48,9 +48,7 @@ cycle: {duration: 1 s}
 def test_guides_that_do_not_fit_together_are_found(column: str, incline: str, off: str, fitting: str) -> None:
     found = findings(WEDGE.replace("COLUMN", column).replace("INCLINE", incline))
     if off:
-        finding = said(
-            found, "at-odds", "joints.incline.block_angle", name="incline", off=off, fitting=fitting
-        )
+        finding = said(found, "at-odds", "joints.incline.block_angle", name="incline", off=off, fitting=fitting)
         assert finding.severity == "error" and len(found) == 1
     else:
         assert found == []

@@ -10,9 +10,15 @@ import pytest
 import linkwright as lw
 
 PLACES = {
-    "A": (0.1, 0.0), "B": (0.42, 0.16), "C": (0.2, 0.25), "D": (0.22, -0.12), "E": (0.3, 0.3), "F": (0.45, -0.05),
-    "H": (0.85, 0.1), "J": (0.8, 0.35),
-}  # fmt: skip
+    "A": (0.1, 0.0),
+    "B": (0.42, 0.16),
+    "C": (0.2, 0.25),
+    "D": (0.22, -0.12),
+    "E": (0.3, 0.3),
+    "F": (0.45, -0.05),
+    "H": (0.85, 0.1),
+    "J": (0.8, 0.35),
+}
 TRIANGLE = ("AB", "BC", "AC")
 #: Two triangles joined by three bars: no pin of it has two bars only, so that no dyad places it.
 PRISM = ("AC", "AD", "CD", "BE", "BF", "EF", "AB", "CE", "DF")

@@ -38,9 +38,7 @@ def curve(mechanism: lw.Mechanism, output: str, steps: int) -> Any:
     return forces.input_torque
 
 
-def differences(
-    mechanism: lw.Mechanism, output: str, by: str, steps: int, part: float
-) -> tuple[Any, dict[str, Any]]:
+def differences(mechanism: lw.Mechanism, output: str, by: str, steps: int, part: float) -> tuple[Any, dict[str, Any]]:
     """Central differences of the fourth order: of the curve, and of its summaries."""
     value = mechanism.dimension(by)
     step = part * max(abs(value), 0.1)
@@ -99,9 +97,7 @@ def test_angles_do_not_change_with_the_scale() -> None:
     """Σ l ∂θ/∂l = 0 over all lengths (Euler, degree 0); velocities grow with it (degree 1)."""
     mechanism = stored("crank_rocker")
     lengths = [
-        a
-        for a in mechanism.dimensions()
-        if a.endswith((".length", ".x", ".y")) and not a.startswith("gravity")
+        a for a in mechanism.dimensions() if a.endswith((".length", ".x", ".y")) and not a.startswith("gravity")
     ]
     found = sensitivity(mechanism, of=["coupler.angle", "coupler.P.velocity"], by=lengths)
     dimensions = mechanism.dimensions()
@@ -144,9 +140,7 @@ def test_compiled_derivatives_agree() -> None:
         for address in by:
             a, b = plain.slope("driver.effort", address), fast.slope("driver.effort", address)
             assert np.abs(a - b).max() <= 1e-10 * np.abs(a).max()
-            pair = [
-                each.gradient("reaction O5 on jaw", "rms")[each.by.index(address)] for each in (plain, fast)
-            ]
+            pair = [each.gradient("reaction O5 on jaw", "rms")[each.by.index(address)] for each in (plain, fast)]
             assert pair[0] == pytest.approx(pair[1], rel=1e-10)
 
 
@@ -190,9 +184,7 @@ LOADS = {
 @pytest.mark.parametrize("load", LOADS.values(), ids=LOADS)
 def test_loads_that_follow_the_motion_are_differentiated(load: str) -> None:
     text = lw.dump(stored("crank_rocker"))
-    mechanism = lw.loads(
-        text + f"\nloads: {{push: {{kind: force, on: rocker, at: B, direction: 20 deg, {load}}}}}\n"
-    )
+    mechanism = lw.loads(text + f"\nloads: {{push: {{kind: force, on: rocker, at: B, direction: 20 deg, {load}}}}}\n")
     for address in ("coupler.length", "crank.length"):
         value, steps = mechanism.dimension(address), 360
         step = 2e-6 * value
@@ -219,9 +211,7 @@ ITERATED = {
 def iterated(load: str) -> lw.Mechanism:
     """A triad, which Newton's method solves: where a load acts is known per position."""
     text = lw.dump(stored("triad")).split("\nloads:")[0]
-    return lw.loads(
-        text + f"\nloads: {{push: {{kind: force, on: bar_2, at: Q, direction: 20 deg, {load}}}}}\n"
-    )
+    return lw.loads(text + f"\nloads: {{push: {{kind: force, on: bar_2, at: Q, direction: 20 deg, {load}}}}}\n")
 
 
 @pytest.mark.parametrize("load", ITERATED.values(), ids=ITERATED)
@@ -264,12 +254,7 @@ def test_relative_derivatives_are_percent_per_percent_and_none_of_zero() -> None
     """In line: the stroke is twice the crank, and B stays on the x axis."""
     found = sensitivity(
         stored("slider_crank_inline"),
-        of=[
-            "cylinder.displacement range",
-            "B.y max",
-            "cylinder.displacement min",
-            "cylinder.displacement max",
-        ],
+        of=["cylinder.displacement range", "B.y max", "cylinder.displacement min", "cylinder.displacement max"],
         by=["crank.length", "rod.length"],
         steps=24,
     )
@@ -279,12 +264,8 @@ def test_relative_derivatives_are_percent_per_percent_and_none_of_zero() -> None
         place = 0.2 + sense * 0.05
         assert found.value("cylinder.displacement", kind) == pytest.approx(place)
         assert found.gradient("cylinder.displacement", kind) == pytest.approx([sense, 1.0])
-        assert found.relative("cylinder.displacement", kind) == pytest.approx(
-            [sense * 0.05 / place, 0.2 / place]
-        )
-    assert found.by_name("cylinder.displacement range") == pytest.approx(
-        {"crank.length": 2.0, "rod.length": 0.0}
-    )
+        assert found.relative("cylinder.displacement", kind) == pytest.approx([sense * 0.05 / place, 0.2 / place])
+    assert found.by_name("cylinder.displacement range") == pytest.approx({"crank.length": 2.0, "rod.length": 0.0})
     rows = found._repr_html_().split("<tr>")[2:]
     assert len(rows) == 4 and rows[0].count("<td") == 4 and ">0.1<" in rows[0] and ">2<" in rows[0]
 

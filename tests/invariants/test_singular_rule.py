@@ -52,9 +52,7 @@ def test_the_data_of_metrics_has_the_same_limit(capsys: pytest.CaptureFixture[st
     assert found["limit"] == pytest.approx(0.17**2)
 
 
-def said(
-    command: str, text: str, folder: Path, capsys: pytest.CaptureFixture[str]
-) -> tuple[int, dict[str, Any]]:
+def said(command: str, text: str, folder: Path, capsys: pytest.CaptureFixture[str]) -> tuple[int, dict[str, Any]]:
     """The exit code of a command, and the data that it prints."""
     path = folder / "model.yaml"
     path.write_text(text)

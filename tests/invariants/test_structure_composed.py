@@ -24,7 +24,7 @@ GROUPS: dict[str, tuple[int, int, dict[str, str], list[tuple[str, str]]]] = {
     "RRP-RRR": (3, 3, {"A": "o", "B": "pJ", "C": "qK", "D": "JK"}, [("A", "D")]),
     "RRRRR-RRRR": (3, 4, {"A": "oI", "B": "pJ", "C": "qK", "D": "rL", "E": "IJM", "F": "KLM"}, []),
     "RRRR-RR": (4, 2, {"A": "oIJ", "B": "pKL", "C": "IK", "D": "JL"}, []),
-}  # fmt: skip
+}
 
 
 @dataclass
@@ -35,9 +35,7 @@ class Composed:
     points: dict[str, list[str]] = field(default_factory=lambda: {"frame": []})
     joints: list[str] = field(default_factory=list)
     drivers: list[str] = field(default_factory=list)
-    expected: dict[frozenset[str], tuple[str, int, int, frozenset[str], frozenset[str]]] = field(
-        default_factory=dict
-    )
+    expected: dict[frozenset[str], tuple[str, int, int, frozenset[str], frozenset[str]]] = field(default_factory=dict)
     owners: set[str] = field(default_factory=set)
 
     def name(self, kind: str) -> str:
@@ -54,9 +52,7 @@ class Composed:
         pin, link = self.name("P"), self.name("crank")
         self.points["frame"].append(pin)
         self.points[link] = [pin, self.name("P")]
-        self.drivers.append(
-            f"{self.name('d')}: {{turn: {link}, about: {pin}, speed: {len(self.drivers) + 1} rad/s}}"
-        )
+        self.drivers.append(f"{self.name('d')}: {{turn: {link}, about: {pin}, speed: {len(self.drivers) + 1} rad/s}}")
 
     def add(self, signature: str) -> None:
         group_class, order, links, guides = GROUPS[signature]
@@ -91,9 +87,7 @@ class Composed:
 
     def text(self) -> str:
         def placed(link: str) -> str:
-            own = (
-                f"{p}: [{x:.4f} m, {y:.4f} m]" for p in self.points[link] for x, y in [self.random.random(2)]
-            )
+            own = (f"{p}: [{x:.4f} m, {y:.4f} m]" for p in self.points[link] for x, y in [self.random.random(2)])
             return f"points: {{{', '.join(own)}}}"
 
         moving = [f"{link}: {{{placed(link)}}}" for link in self.points if link != "frame"]
@@ -118,9 +112,7 @@ def letters(signature: str) -> list[Counter[str]]:
     return [Counter(part) for part in signature.split("-")]
 
 
-def check(
-    group: Group, expected: tuple[str, int, int, frozenset[str], frozenset[str]], solved: set[str]
-) -> None:
+def check(group: Group, expected: tuple[str, int, int, frozenset[str], frozenset[str]], solved: set[str]) -> None:
     signature, group_class, order, inner, outer = expected
     if group_class == 2:
         assert group.signature == signature

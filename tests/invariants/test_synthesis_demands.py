@@ -70,14 +70,11 @@ def test_a_geared_crank_turns_with_the_speed_asked_for(tmp_path: Path) -> None:
 
 @pytest.mark.rotating
 @pytest.mark.parametrize(
-    ("linkage", "turning"),
-    [("four_bar", False), ("four_bar", True), ("watt", False), ("geared_five_bar", True)],
+    ("linkage", "turning"), [("four_bar", False), ("four_bar", True), ("watt", False), ("geared_five_bar", True)]
 )
 def test_function_generators_have_the_transmission_angle(linkage: str, turning: bool) -> None:
     asked = math.radians(35 if turning else 60)
-    found = lw.function_generation(
-        INPUTS, LOGARITHM, linkage=linkage, transmission_angle=asked, turning=turning
-    )
+    found = lw.function_generation(INPUTS, LOGARITHM, linkage=linkage, transmission_angle=asked, turning=turning)
     for each in every(found):
         assert each.transmission_angle >= asked - 1e-9 and each.turns >= turning
         around = np.linspace(0, 2 * math.pi, 721) if each.turns else np.linspace(0, INPUTS[-1], 181)
@@ -89,9 +86,8 @@ def test_function_generators_have_the_transmission_angle(linkage: str, turning: 
 def test_slider_cranks_have_the_transmission_angle() -> None:
     for turning, asked in ((True, 40.0), (False, 85.0)):
         found = lw.function_generation(
-            INPUTS, 0.1 * LOGARITHM, linkage="slider_crank", turning=turning,
-            transmission_angle=math.radians(asked),
-        )  # fmt: skip
+            INPUTS, 0.1 * LOGARITHM, linkage="slider_crank", turning=turning, transmission_angle=math.radians(asked)
+        )
         for each in found:
             around = np.linspace(0, 2 * math.pi, 721) if each.turns else np.linspace(0, INPUTS[-1], 181)
             motion = lw.solve_motion(each.mechanism(), at=each.linkage.start + around)
@@ -218,11 +214,7 @@ def test_pivots_lie_within_the_region_for_any_number_of_poses() -> None:
         ("path", {"phase": False}, ("phase: false", "angles")),
         ("free_curve", {"file_unit": 0.001}, ("file_unit", "file")),
         ("quick_return", {"stroke": 0.0}, ("rod", "stroke")),
-        (
-            "motion",
-            {"pivot_line": [(0, 0), (1, 0)], "fixed_pivots": [(0, 0)]},
-            ("pivot_line", '"fixed_pivots"'),
-        ),
+        ("motion", {"pivot_line": [(0, 0), (1, 0)], "fixed_pivots": [(0, 0)]}, ("pivot_line", '"fixed_pivots"')),
         (
             "motion",
             {"within": [(0, 0), (1, 1)], "fixed_pivots": [(0, 0), (1, 0)]},
@@ -235,9 +227,7 @@ def test_pivots_lie_within_the_region_for_any_number_of_poses() -> None:
         ),
     ],
 )
-def test_demands_without_effect_are_refused(
-    task: str, demands: dict[str, object], said: tuple[str, str]
-) -> None:
+def test_demands_without_effect_are_refused(task: str, demands: dict[str, object], said: tuple[str, str]) -> None:
     with pytest.raises(lw.SynthesisError) as caught:
         lw.synthesize(task, **{**SUFFICIENT[task], **demands})
     other = {"synthesize.task.only_with": "needs", "synthesize.task.not_with": "other"}[caught.value.code]

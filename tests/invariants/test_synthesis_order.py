@@ -43,9 +43,7 @@ def worth(each: lw.Candidate, demand: float) -> float:
     ],
     ids=["exact path", "nine points", "path", "timed path", "motion", "function"],
 )
-def test_the_order_of_equals_is_that_of_the_documentation(
-    found: Callable[[], lw.Synthesis], demand: float
-) -> None:
+def test_the_order_of_equals_is_that_of_the_documentation(found: Callable[[], lw.Synthesis], demand: float) -> None:
     candidates = [each for each in found() if not each.defects]
     assert len(candidates) > 1
     order = [worth(each, demand) for each in candidates]

@@ -46,11 +46,7 @@ def test_noise_leaves_the_least_that_other_descents_find() -> None:
         pin = np.exp(1j * (theta + x[3]))
         square = np.abs(d - pin) ** 2
         t = square + b * b - c * c
-        turn = (
-            (d - pin)
-            * (t + 1j * x[10] * np.sqrt(np.maximum(4 * b * b * square - t * t, 0)))
-            / (2 * b * square)
-        )
+        turn = (d - pin) * (t + 1j * x[10] * np.sqrt(np.maximum(4 * b * b * square - t * t, 0))) / (2 * b * square)
         z = x[4] + 1j * x[5] + (x[6] + 1j * x[7]) * pin + (x[8] + 1j * x[9]) * turn - points
         return np.concatenate([z.real, z.imag])
 

@@ -74,9 +74,7 @@ def test_a_rocker_that_the_frame_cannot_have_is_refused_with_the_nearest() -> No
 
 
 def test_shaper_has_its_stroke_and_quick_return_ratio() -> None:
-    best = lw.synthesize(
-        "quick_return", quick_return_ratio=1.4599052, frame=0.38, stroke=0.31263158, rod=0.135
-    ).best
+    best = lw.synthesize("quick_return", quick_return_ratio=1.4599052, frame=0.38, stroke=0.31263158, rod=0.135).best
     assert best.values["crank [m]"] == pytest.approx(0.110, rel=1e-6)
     assert measured(best, "stroke") == pytest.approx(0.31263158, rel=1e-8)
     assert measured(best, "quick_return_ratio") == pytest.approx(1.4599052, rel=1e-7)
@@ -107,9 +105,7 @@ def test_toggle_has_its_stroke() -> None:
 
 
 def test_dwell_rests_and_swings() -> None:
-    for each in every(
-        lw.synthesize("dwell", crank_angle=math.radians(80), swing_angle=math.radians(30), frame=0.2)
-    ):
+    for each in every(lw.synthesize("dwell", crank_angle=math.radians(80), swing_angle=math.radians(30), frame=0.2)):
         angle = np.unwrap(lw.solve_motion(each.mechanism(), steps=3600).link("output").angle)
         assert np.ptp(angle) == pytest.approx(math.radians(30), abs=1e-7)
         assert np.ptp(angle[:801]) / 2 == pytest.approx(each.error, rel=1e-5)
@@ -118,9 +114,7 @@ def test_dwell_rests_and_swings() -> None:
 
 def test_straight_lines_are_as_straight_as_they_say() -> None:
     for each in every(
-        each
-        for each in lw.synthesize("straight_line", length=0.1, deviation=2e-4)
-        if each.linkage.span is not None
+        each for each in lw.synthesize("straight_line", length=0.1, deviation=2e-4) if each.linkage.span is not None
     ):
         path = lw.solve_motion(each.mechanism(), steps=200).point("P").position
         chord = path[-1] - path[0]

@@ -96,9 +96,7 @@ def test_under_a_law_the_jumps_are_cut_as_well() -> None:
     alone = lw.metrics(lw.solve_forces(mechanism)).value("rms_reaction", "B")
     assert value == pytest.approx(alone, rel=1e-8)
     numbers = [
-        lw.metrics(lw.solve_forces(mechanism.with_dimensions({"crank.length": 0.03 + d}))).value(
-            "rms_reaction", "B"
-        )
+        lw.metrics(lw.solve_forces(mechanism.with_dimensions({"crank.length": 0.03 + d}))).value("rms_reaction", "B")
         for d in (1e-5, -1e-5)
     ]
     assert slope[0] == pytest.approx((numbers[0] - numbers[1]) / 2e-5, rel=1e-5)

@@ -36,12 +36,9 @@ class Train:
 
     def text(self) -> str:
         places = ", ".join(f"P{k}: [{0.5 * k} m, {0.2 * k * k} m]" for k in range(WHEELS))
-        wheels = "\n".join(
-            f"  w{k}: {{points: {{P{k}: [0 m, 0 m], Q{k}: [0.1 m, 0 m]}}}}" for k in range(WHEELS)
-        )
+        wheels = "\n".join(f"  w{k}: {{points: {{P{k}: [0 m, 0 m], Q{k}: [0.1 m, 0 m]}}}}" for k in range(WHEELS))
         rows = "\n".join(
-            f"  {name}: {{kind: gear, links: [w{a}, w{b}], ratio: {ratio!r}}}"
-            for name, a, b, ratio in self.pairs
+            f"  {name}: {{kind: gear, links: [w{a}, w{b}], ratio: {ratio!r}}}" for name, a, b, ratio in self.pairs
         )
         return (
             f"format: 1\nframe: {{points: {{{places}}}}}\nlinks:\n{wheels}\njoints:\n{rows}\n"

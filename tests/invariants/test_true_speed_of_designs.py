@@ -42,9 +42,7 @@ def test_pendulums_turn_over_by_the_elliptic_integral(sense: int) -> None:
 @pytest.mark.rotating
 def test_a_cycle_of_several_turns_of_the_motor_has_the_speeds_of_its_one_turn_of_the_crank() -> None:
     """A motor without inertia that turns the pendulum through a chain, three times as fast: all at once."""
-    text = PENDULUM.format(speed=270, torque=-7).replace(
-        "frame: {points: {", "frame: {points: {M: [-1 m, 0 m], "
-    )
+    text = PENDULUM.format(speed=270, torque=-7).replace("frame: {points: {", "frame: {points: {M: [-1 m, 0 m], ")
     text = text.replace("links: {", "links: {motor: {points: [M, N], length: 0.1 m}, ").replace(
         "turn: crank, about: O", "turn: motor, about: M"
     )
@@ -116,9 +114,7 @@ def test_designs_run_as_each_does_alone(name: str, inertia: float, by: str) -> N
     found = lw.sweep(machine, {by: values}, outputs=[*OWN, *SIZED])
     assert found.ok.all()
     for index, value in enumerate(values):
-        running = steady_running(
-            lw.solve_forces(machine.with_dimensions({by: float(value)})), fluctuation=0.02
-        )
+        running = steady_running(lw.solve_forces(machine.with_dimensions({by: float(value)})), fluctuation=0.02)
         reduced = running.equivalent
         alone = true_speed(reduced.load, reduced.inertia_at, reduced.speed)
         assert found["slowest_speed"][index] == pytest.approx(alone.slowest[1], rel=1e-10)
@@ -149,10 +145,7 @@ def test_gradients_are_differences_of_machines_alone(
         step = 1e-3 * mechanism.dimension(address)
         at = {
             k: metrics(
-                lw.solve_forces(
-                    mechanism.with_dimensions({address: mechanism.dimension(address) + k * step})
-                ),
-                name,
+                lw.solve_forces(mechanism.with_dimensions({address: mechanism.dimension(address) + k * step})), name
             ).value(name)
             for k in (-2, -1, 1, 2)
         }
@@ -227,9 +220,7 @@ def test_random_machines_run_as_an_independent_reduction_says() -> None:
         assert found.ok.all()
         for index, length in enumerate(lengths):
             design = machine.with_dimensions({"coupler.length": float(length)})
-            assert found["speed_fluctuation"][index] == pytest.approx(
-                fluctuation_by_fourier(design), rel=1e-9
-            )
+            assert found["speed_fluctuation"][index] == pytest.approx(fluctuation_by_fourier(design), rel=1e-9)
 
 
 @pytest.mark.rotating
@@ -301,9 +292,12 @@ def test_a_required_fluctuation_goes_through_studies_comparisons_and_searches() 
         [wanted, many["exact_flywheel"][8]], rel=1e-10
     )
     best = lw.optimize(
-        crusher, vary={"crank.inertia": "2..90 kg·m²"}, minimize="crank.inertia",
-        keep={"speed_fluctuation": "at most 0.05"}, evaluations=400,
-    )  # fmt: skip
+        crusher,
+        vary={"crank.inertia": "2..90 kg·m²"},
+        minimize="crank.inertia",
+        keep={"speed_fluctuation": "at most 0.05"},
+        evaluations=400,
+    )
     assert best.best.values["crank.inertia"] == pytest.approx(5.0 + wanted, rel=1e-6)
 
 

@@ -24,12 +24,7 @@ def program(rise: float = 0.024, law: str = "cycloidal", beta: float = 90.0) -> 
     over = radians(beta)
     rest = (2 * math.pi - 2 * over) / 2
     return lw.MotionProgram(
-        (
-            lw.Segment(over, rise, law=law),
-            lw.Segment(rest),
-            lw.Segment(over, -rise, law=law),
-            lw.Segment(rest),
-        )
+        (lw.Segment(over, rise, law=law), lw.Segment(rest), lw.Segment(over, -rise, law=law), lw.Segment(rest))
     )
 
 
@@ -80,9 +75,7 @@ def test_pressure_angle_and_curvature_are_those_of_the_closed_forms(turn: float,
 @pytest.mark.parametrize("kind", ["roller", "flat"])
 @pytest.mark.parametrize("below", [False, True])
 @pytest.mark.parametrize("turn", [1.0, -1.0])
-def test_an_oscillating_follower_touches_its_cam_and_does_not_cut_it(
-    kind: str, below: bool, turn: float
-) -> None:
+def test_an_oscillating_follower_touches_its_cam_and_does_not_cut_it(kind: str, below: bool, turn: float) -> None:
     """Rolled over by the follower at other angles, no contact point lies inside it; the contact lies on it."""
     follower = lw.Follower(
         kind, "oscillating", 0.01 if kind == "roller" else 0.0, pivot_distance=0.16, arm=0.13, below=below
@@ -170,9 +163,7 @@ def test_the_largest_pressure_is_found_between_the_places_of_the_curves() -> Non
     program = lw.MotionProgram((lw.Segment(rise, lift, law="cycloidal"), back))
     material = CamMaterial(206e9)
     loading = lw.CamLoading(speed, mass, load)
-    design = lw.Cam(
-        program, lw.Follower("flat"), base, width=width, material=material, loading=loading
-    ).solve()
+    design = lw.Cam(program, lw.Follower("flat"), base, width=width, material=material, loading=loading).solve()
     u = np.linspace(0.0, 1.0, 2_000_001)
     s, second = lift * (u - np.sin(2 * pi * u) / (2 * pi)), lift * 2 * pi * np.sin(2 * pi * u) / rise**2
     force = load + mass * speed**2 * second
@@ -191,9 +182,7 @@ def test_a_chosen_spring_just_holds_the_contact() -> None:
     with refused("contact_lost", lw.ModelError, unit="N") as caught:
         weaker.solve()
     missing = float(caught.value.values["missing"])
-    held = replace(
-        weaker, loading=replace(weaker.loading, spring=lw.CamSpring(1000.0, 5.0 + 1.0001 * missing))
-    )
+    held = replace(weaker, loading=replace(weaker.loading, spring=lw.CamSpring(1000.0, 5.0 + 1.0001 * missing)))
     assert held.solve().extreme_force("min").value >= 0.0
 
 
@@ -208,8 +197,11 @@ def test_chosen_sizes_just_keep_their_limits() -> None:
     ]
     assert max(reached) > 1 - 1e-6 and min(reached) > 0.999
     assert set(design.data()["shape"]) == {
-        "pressure_angle_rise", "pressure_angle_fall", "smallest_radius", "hollow_radius"
-    }  # fmt: skip
+        "pressure_angle_rise",
+        "pressure_angle_fall",
+        "smallest_radius",
+        "hollow_radius",
+    }
 
 
 def test_without_offset_and_limits_of_curvature_the_base_circle_is_known() -> None:
@@ -245,11 +237,7 @@ def test_rollers_of_a_pair_are_rigid_with_each_other() -> None:
     first, second = (wall.pitch(phi)[0] * turned for wall in design.cam.walls)
     assert np.abs(first - second) == pytest.approx(np.full(200, abs(first[0] - second[0])), rel=1e-12)
     yoke = lw.Cam(
-        program(),
-        lw.Follower(roller_radius=0.01),
-        0.04,
-        closure="conjugate",
-        conjugate=lw.CamConjugate(0.045),
+        program(), lw.Follower(roller_radius=0.01), 0.04, closure="conjugate", conjugate=lw.CamConjugate(0.045)
     ).solve()
     up, down = (wall.pitch(phi)[0] * turned for wall in yoke.cam.walls)
     assert np.abs(up + down) == pytest.approx(np.full(200, abs(up[0] + down[0])), rel=1e-12)
@@ -270,9 +258,13 @@ def test_the_barrel_is_its_unrolled_curve() -> None:
 def test_residual_vibration_of_the_cam_is_that_of_its_rises() -> None:
     """The cycloidal law leaves h |sin πn|/(πn|1 - n²|) behind (closed form)."""
     cam = lw.Cam(
-        program(0.02, "cycloidal", 90.0), lw.Follower(roller_radius=0.008), 0.06,
-        loading=lw.CamLoading(40.0, 0.5), elasticity=lw.CamElasticity(3e6), spring_wanted=True,
-    )  # fmt: skip
+        program(0.02, "cycloidal", 90.0),
+        lw.Follower(roller_radius=0.008),
+        0.06,
+        loading=lw.CamLoading(40.0, 0.5),
+        elasticity=lw.CamElasticity(3e6),
+        spring_wanted=True,
+    )
     design = cam.solve()
     speeds = np.array([40.0, 90.0, 140.0])
     n = design.own_frequency / (2 * np.pi) * radians(90.0) / speeds
@@ -368,9 +360,12 @@ load: 7 N
 
 def test_a_spring_that_is_too_weak_for_the_effort_asked_for_is_told() -> None:
     cam = lw.Cam(
-        program(0.02, "cycloidal", 90.0), lw.Follower(roller_radius=0.008), 0.06,
-        loading=lw.CamLoading(20.0, 0.5, 0.0, lw.CamSpring(2e3, 10.0)), limits=lw.CamLimits(contact_force=50.0),
-    )  # fmt: skip
+        program(0.02, "cycloidal", 90.0),
+        lw.Follower(roller_radius=0.008),
+        0.06,
+        loading=lw.CamLoading(20.0, 0.5, 0.0, lw.CamSpring(2e3, 10.0)),
+        limits=lw.CamLimits(contact_force=50.0),
+    )
     text = cam.solve().text()
     assert " 10 N" in text and " 50 N" in text
 
@@ -390,11 +385,7 @@ def test_a_cam_that_moves_nothing_is_a_circle_of_a_given_size_only() -> None:
     with refused("nothing_moves", lw.ModelError):
         lw.Cam(rests, lw.Follower(roller_radius=0.008), limits=lw.CamLimits(pressure_angle=0.5)).solve()
     round_cam = lw.Cam(
-        rests,
-        lw.Follower(roller_radius=0.008),
-        0.06,
-        loading=lw.CamLoading(10.0, 1.0, 5.0),
-        spring_wanted=True,
+        rests, lw.Follower(roller_radius=0.008), 0.06, loading=lw.CamLoading(10.0, 1.0, 5.0), spring_wanted=True
     ).solve()
     assert np.hypot(*round_cam.profile(90).T) == pytest.approx(0.06)
     assert round_cam.extreme_force("max").value == pytest.approx(5.0)
@@ -406,8 +397,14 @@ def test_steady_deviation_against_integration(law: str) -> None:
     from scipy.integrate import solve_ivp
 
     motion = program(0.02, law, 90.0)
-    cam = lw.Cam(motion, lw.Follower(roller_radius=0.008), 0.06, loading=lw.CamLoading(60.0, 0.5),
-                 elasticity=lw.CamElasticity(4e5, 0.2), spring_wanted=True)  # fmt: skip
+    cam = lw.Cam(
+        motion,
+        lw.Follower(roller_radius=0.008),
+        0.06,
+        loading=lw.CamLoading(60.0, 0.5),
+        elasticity=lw.CamElasticity(4e5, 0.2),
+        spring_wanted=True,
+    )
     design = cam.solve()
     w, speed = design.own_frequency, 60.0
     period = 2 * math.pi / speed
@@ -417,16 +414,27 @@ def test_steady_deviation_against_integration(law: str) -> None:
 
     found = solve_ivp(
         lambda t, y: [y[1], -0.4 * w * y[1] - w * w * y[0] - speed**2 * bend(speed * t)],
-        (0.0, 4 * period), [0.0, 0.0], t_eval=np.linspace(3 * period, 4 * period, 20001), rtol=1e-9, atol=1e-12,
-        max_step=period / 60, method="DOP853",
-    )  # fmt: skip
+        (0.0, 4 * period),
+        [0.0, 0.0],
+        t_eval=np.linspace(3 * period, 4 * period, 20001),
+        rtol=1e-9,
+        atol=1e-12,
+        max_step=period / 60,
+        method="DOP853",
+    )
     assert design.steady_deviation(np.array([speed]))[0] == pytest.approx(np.abs(found.y[0]).max(), rel=2e-6)
 
 
 def test_an_undamped_follower_swings_without_end_where_a_harmonic_meets_it() -> None:
     motion = program(0.02, "cycloidal", 90.0)
-    cam = lw.Cam(motion, lw.Follower(roller_radius=0.008), 0.06, loading=lw.CamLoading(60.0, 0.5),
-                 elasticity=lw.CamElasticity(4e5), spring_wanted=True)  # fmt: skip
+    cam = lw.Cam(
+        motion,
+        lw.Follower(roller_radius=0.008),
+        0.06,
+        loading=lw.CamLoading(60.0, 0.5),
+        elasticity=lw.CamElasticity(4e5),
+        spring_wanted=True,
+    )
     design = cam.solve()
     own = design.own_frequency
     found = design.steady_deviation(np.array([own / 5, own / 5.01, 0.0]))
@@ -474,29 +482,11 @@ PRESSED = "limits: {pressure_angle: 30 deg, contact_pressure: 1 MPa}\nwidth: 1 m
 @pytest.mark.parametrize(
     ("follower", "rest", "code", "key", "values"),
     [
-        (
-            ROLLER,
-            "base_radius: -3 mm",
-            "range",
-            "base_radius",
-            {"shown": "-3 mm"},
-        ),
+        (ROLLER, "base_radius: -3 mm", "range", "base_radius", {"shown": "-3 mm"}),
         (ROLLER, "", "no_base", "base_radius", {}),
-        (
-            f"{ROLLER}, offset: 60 mm",
-            "base_radius: 40 mm",
-            "offset",
-            "follower",
-            {"offset": "60", "radius": "40"},
-        ),
+        (f"{ROLLER}, offset: 60 mm", "base_radius: 40 mm", "offset", "follower", {"offset": "60", "radius": "40"}),
         ("kind: roller", "base_radius: 40 mm", "no_roller", "follower", {}),
-        (
-            "kind: flat",
-            "base_radius: 5 mm",
-            "undercut_flat",
-            "base_radius",
-            {"start": "35.1236", "more": "27.8497"},
-        ),
+        ("kind: flat", "base_radius: 5 mm", "undercut_flat", "base_radius", {"start": "35.1236", "more": "27.8497"}),
         (
             "kind: roller, roller_radius: 45 mm",
             "base_radius: 5 mm",
@@ -504,13 +494,7 @@ PRESSED = "limits: {pressure_angle: 30 deg, contact_pressure: 1 MPa}\nwidth: 1 m
             "follower.roller_radius",
             {"roller": "45", "radius": "39.4246"},
         ),
-        (
-            "kind: knife",
-            "base_radius: 40 mm\nclosure: groove",
-            "closure_follower",
-            "closure",
-            {"closure": "groove"},
-        ),
+        ("kind: knife", "base_radius: 40 mm\nclosure: groove", "closure_follower", "closure", {"closure": "groove"}),
         (ROLLER, "base_radius: 40 mm\nclosure: conjugate", "conjugate", "closure", {}),
         (ROLLER, WEAK, "contact_lost", "spring", {"unit": "N"}),
         (ROLLER, PRESSED, "no_size", "limits", {}),

@@ -43,9 +43,7 @@ def test_both_languages_name_the_same() -> None:
 
 
 def test_every_file_of_the_gallery_is_there() -> None:
-    files = {
-        each for rows in tables("en").values() for row in rows for each in re.findall(r"gallery:(\w+)", row)
-    }
+    files = {each for rows in tables("en").values() for row in rows for each in re.findall(r"gallery:(\w+)", row)}
     tasks = {"function_of_three_pairs", "double_crank_of_ten_pairs"}
     assert files <= {*lw.gallery_names(), *parts.gallery_names(), *tasks}
     assert len(files) > 20

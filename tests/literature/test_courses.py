@@ -29,9 +29,7 @@ def press(scheme: str) -> lw.Mechanism:
     (x1, x2, y, stroke, speed), _, _ = PRESSES[scheme]
     lengths = {"x1": x1, "x2": x2, "y": y, "H": stroke}
     sizes = {name: 1e-3 * value for name, value in lengths.items()}
-    return store.machine("press_course").with_dimensions({
-        **sizes, "driver.speed": -speed * math.pi / 30
-    })  # fmt: skip
+    return store.machine("press_course").with_dimensions({**sizes, "driver.speed": -speed * math.pi / 30})
 
 
 def shaper(scheme: str) -> lw.Mechanism:

@@ -27,15 +27,7 @@ def turned(angles: np.ndarray, others: np.ndarray) -> np.ndarray:
 def test_printed_directions_of_the_crusher(tmp_path: Path) -> None:
     """25 rows of FR6 and BT6, out of a CSV file in degrees, in the report's order from 0 to -360 degrees."""
     path = tmp_path / "crusher.csv"
-    call = [
-        "export",
-        "gallery:jaw_crusher_sixbar_as_reported",
-        "--output",
-        str(path),
-        "--degrees",
-        "--steps",
-        "24",
-    ]
+    call = ["export", "gallery:jaw_crusher_sixbar_as_reported", "--output", str(path), "--degrees", "--steps", "24"]
     assert main(call) == 0
     ours, printed = rows_of(path.read_text("utf-8")), rows_of(PRINTED.read_text("utf-8"))
     found = np.array([float(row["O5 on jaw.direction [°]"]) for row in ours])

@@ -49,9 +49,7 @@ def test_lecture_cumsum_is_three_percent_off() -> None:
     moment = np.where(x < at, -force * (at - x), 0.0)
     tip = (np.cumsum(np.cumsum(moment)) * (x[1] - x[0]) ** 2 / rigidity)[-1]
     closed = -force * at**2 * (3 * length - at) / (6 * rigidity)
-    assert 1e3 * tip == pytest.approx(-0.8702, abs=1e-9) and 1e3 * closed == pytest.approx(
-        -0.84375, abs=1e-12
-    )
+    assert 1e3 * tip == pytest.approx(-0.8702, abs=1e-9) and 1e3 * closed == pytest.approx(-0.84375, abs=1e-12)
     assert tip / closed - 1.0 == pytest.approx(0.0313, abs=1e-4)
     ours = lw.parts.load("gallery:cantilever").solve().data()["extremes"]["deflection w, least"]
     assert ours["value"] == pytest.approx(closed, rel=1e-9)
@@ -89,9 +87,7 @@ def test_press_relations_of_follower_and_crank_differ_by_twice_beta() -> None:
     def slid(crank: np.ndarray) -> np.ndarray:
         angle = np.radians(crank)
         return np.asarray(
-            math.sqrt((r + rod) ** 2 - e**2)
-            - r * np.cos(angle)
-            - np.sqrt(rod**2 - (e - r * np.sin(angle)) ** 2)
+            math.sqrt((r + rod) ** 2 - e**2) - r * np.cos(angle) - np.sqrt(rod**2 - (e - r * np.sin(angle)) ** 2)
         )
 
     right, other = 90.0 - beta - np.array(PSI), np.array(PSI) - 90.0 - beta
@@ -122,12 +118,7 @@ def test_dyads_with_moving_guides_satisfy_closure_and_derivatives(
     side, across = np.stack([-r[:, 1], r[:, 0]], axis=1), np.stack([-n[:, 1], n[:, 0]], axis=1)
     w, e, v, a = (
         each[:, None]
-        for each in (
-            carrier.angular_velocity,
-            carrier.angular_acceleration,
-            slide.velocity,
-            slide.acceleration,
-        )
+        for each in (carrier.angular_velocity, carrier.angular_acceleration, slide.velocity, slide.acceleration)
     )
     assert end.velocity == pytest.approx(start.velocity + w * side + v * n, abs=1e-9)
     whole = start.acceleration + e * side - w**2 * r + 2.0 * w * v * across + a * n

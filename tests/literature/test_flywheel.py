@@ -104,9 +104,7 @@ def test_at_rest_the_equivalent_torque_is_the_drivers() -> None:
         (np.cos, 10.0, "running.no_inertia", {}),
     ],
 )
-def test_machines_that_cannot_run_evenly(
-    inertia: object, speed: float, code: str, values: dict[str, float]
-) -> None:
+def test_machines_that_cannot_run_evenly(inertia: object, speed: float, code: str, values: dict[str, float]) -> None:
     with refused(code, **values):
         true_speed(TorqueCurve.constant(1.0), inertia, speed)
 
@@ -170,10 +168,7 @@ def test_curves_of_energy_and_speed_over_a_period() -> None:
         2 * pi / 10
     )
     assert speed.fluctuation == pytest.approx((speed.fastest[1] - speed.slowest[1]) / 10.0, rel=1e-12)
-    assert (speed.motor_torque, speed.periodicity) == (
-        pytest.approx(100.0),
-        pytest.approx(0.0, abs=1e-12),
-    )
+    assert (speed.motor_torque, speed.periodicity) == (pytest.approx(100.0), pytest.approx(0.0, abs=1e-12))
     assert len(true_speed(driver, 2.0, 10.0, steps=8).angle) == 9
 
 

@@ -49,9 +49,7 @@ def test_planetary_train_by_willis() -> None:
     found = lw.structure(forces.mechanism)
     assert (found.grubler, found.mobility, found.passive) == (0, 2, ("ring_2", "ring_3"))
     (train,) = found.trains
-    assert train.ratios == pytest.approx(
-        {"sun": 1, "planet_1": -1, "planet_2": -1, "planet_3": -1, "ring": -1 / 3}
-    )
+    assert train.ratios == pytest.approx({"sun": 1, "planet_1": -1, "planet_2": -1, "planet_3": -1, "ring": -1 / 3})
 
 
 def test_differential() -> None:
@@ -200,9 +198,7 @@ def test_a_distance_as_a_file_rounds_it_has_the_given_angle_to_the_last_digit() 
     assert force[0] / force[1] == pytest.approx(np.tan(ALPHA), rel=1e-13)
     found = sensitivity(pair, of=["reaction mesh on pinion.x"], by=["frame.Q.x"], steps=4)
     steps = [pair.with_dimensions({"frame.Q.x": nominal + off}) for off in (-1e-6, 1e-6)]
-    ends = [
-        lw.solve_forces(lw.solve_motion(each, at=[0.0])).reaction("mesh", on="pinion")[0, 0] for each in steps
-    ]
+    ends = [lw.solve_forces(lw.solve_motion(each, at=[0.0])).reaction("mesh", on="pinion")[0, 0] for each in steps]
     assert found.slope("reaction mesh on pinion.x", "frame.Q.x")[0] == pytest.approx(
         (ends[1] - ends[0]) / 2e-6, rel=1e-4
     )
@@ -243,9 +239,7 @@ def test_a_rack_of_a_module_may_be_off_its_distance_and_one_of_a_radius_may_not(
     press = store.machine("rack_and_rocker")
     moved = press.with_dimensions({"slide.offset": press.dimensions()["slide.offset"] + 5e-4})
     plain, found = (lw.solve_forces(lw.solve_motion(each, steps=6)) for each in (press, moved))
-    assert found.motion.joint("slide").velocity == pytest.approx(
-        plain.motion.joint("slide").velocity, rel=1e-12
-    )
+    assert found.motion.joint("slide").velocity == pytest.approx(plain.motion.joint("slide").velocity, rel=1e-12)
     pinion = store.machine("pinion_between_racks")
     address = next(name for name in pinion.dimensions() if name.endswith(".offset"))
     off = pinion.with_dimensions({address: pinion.dimensions()[address] + 1e-4})
@@ -264,7 +258,7 @@ def test_a_rack_of_a_module_may_be_off_its_distance_and_one_of_a_radius_may_not(
         ("rack_and_rocker", "mesh", (50,), (0.1,), None, None, 0.004),
         ("pinion_between_racks", "above", None, (0.04,), None, None, None),
     ],
-)  # fmt: skip
+)
 def test_sizes_of_wheels(
     name: str,
     joint: str,
@@ -283,9 +277,7 @@ def test_sizes_of_wheels(
     assert found.ratio == (None if ratio is None else pytest.approx(ratio))
     if distance is not None:
         assert found.distance == pytest.approx(distance)
-    assert all(
-        wheel_sizes(other, mechanism) is None for other in mechanism.joints.values() if not other.higher
-    )
+    assert all(wheel_sizes(other, mechanism) is None for other in mechanism.joints.values() if not other.higher)
     chain = name == "chain_drive"
     assert found.pressure_angle == (None if chain else pytest.approx(ALPHA))
     assert found.involute == (module is not None and len(found.links) == len(radii))
@@ -329,11 +321,7 @@ driver: {turn: motor, about: M, speed: 2 rad/s}
 @pytest.mark.parametrize("radii", ["200 mm, 100 mm", "180 mm, 120 mm"])
 @pytest.mark.parametrize("steps", [48, 97, 360])
 def test_a_curve_that_a_cycle_runs_several_times_counts_once(radii: str, steps: int) -> None:
-    bare = (
-        BEHIND_GEARS.replace("joints", "#")
-        .replace("  motor", "  #")
-        .replace("motor, about: M", "crank, about: O")
-    )
+    bare = BEHIND_GEARS.replace("joints", "#").replace("  motor", "  #").replace("motor, about: M", "crank, about: O")
     once = lw.metrics(lw.solve_motion(lw.loads(bare), steps=360))
     table = lw.metrics(lw.solve_motion(lw.loads(BEHIND_GEARS.replace("RADII", radii)), steps=steps))
     assert table.value("coupler_curve_length") == pytest.approx(once.value("coupler_curve_length"), rel=1e-10)

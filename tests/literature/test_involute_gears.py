@@ -73,8 +73,6 @@ def test_thickness_of_a_tooth_is_told_on_its_involute_only() -> None:
         ),
     ],
 )
-def test_racks_that_cannot_be_say_why(
-    numbers: dict[str, float], code: str, values: dict[str, object]
-) -> None:
+def test_racks_that_cannot_be_say_why(numbers: dict[str, float], code: str, values: dict[str, object]) -> None:
     with refused(code, **values):
         lw.Rack(**{"teeth": 3, "module": 2e-3, **numbers})  # type: ignore[arg-type]

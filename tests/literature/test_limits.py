@@ -157,9 +157,7 @@ driver:
   slide: guide
   program: [{rise: 20 mm, over: 2 s, law: cycloidal}, {dwell: 0.04 s}, {fall: 20 mm, over: 2.5 s, law: cycloidal}]
 """)
-    (high,) = (
-        each for each in limit_positions(lw.solve_motion(model, steps=steps), "guide") if each.kind == "max"
-    )
+    (high,) = (each for each in limit_positions(lw.solve_motion(model, steps=steps), "guide") if each.kind == "max")
     assert high.time == pytest.approx(2.02, abs=1e-12)
     assert high.value == pytest.approx(0.02, rel=1e-12)
 

@@ -72,10 +72,7 @@ def signals(mechanism: lw.Mechanism) -> dict[tuple[str, str], tuple[str, Signal]
     if "rocker" in mechanism.links:
         found["peak_acceleration", "rocker"] = "peak", lambda f: f.motion.link("rocker").angular_acceleration
         found["swing_angle", "rocker"] = "range", lambda f: f.motion.link("rocker").angle
-        found["velocity_ratio", "rocker"] = (
-            "largest",
-            lambda f: f.motion.link("rocker").angular_velocity / rate(f),
-        )
+        found["velocity_ratio", "rocker"] = ("largest", lambda f: f.motion.link("rocker").angular_velocity / rate(f))
         point, group, guided = "coupler.P", "coupler+rocker", None
     else:
         found["peak_acceleration", "guide"] = "peak", lambda f: f.motion.joint("guide").acceleration
@@ -123,9 +120,7 @@ def solved(request: pytest.FixtureRequest) -> tuple[MetricsTable, lw.Forces]:
     return metrics(table), dense
 
 
-def test_values_and_places_are_those_of_thousands_of_positions(
-    solved: tuple[MetricsTable, lw.Forces],
-) -> None:
+def test_values_and_places_are_those_of_thousands_of_positions(solved: tuple[MetricsTable, lw.Forces]) -> None:
     table, dense = solved
     weights = np.ones(dense.motion.steps)
     if not dense.motion.positions.closed:
@@ -145,9 +140,7 @@ def test_values_and_places_are_those_of_thousands_of_positions(
         row = lw.solve_forces(lw.solve_motion(dense.mechanism, at=[found.at])) if one_turn(dense) else None
         if row is not None:
             there = float(signal(row)[0])
-            assert (abs(there) if kind == "peak" else there) == pytest.approx(
-                found.value, rel=1e-6, abs=1e-6 * scale
-            )
+            assert (abs(there) if kind == "peak" else there) == pytest.approx(found.value, rel=1e-6, abs=1e-6 * scale)
     assert checked == len(signals(dense.mechanism)) - lacking(table)
 
 
@@ -242,9 +235,7 @@ def test_a_wheel_swings_as_far_as_the_crank_that_is_reached_through_the_end_of_t
         .replace("Q: [4 m, 0.5 m]}", "Q: [4 m, 0.5 m], W: [0 m, 2.5 m]}")
     )
     table = metrics(lw.solve_motion(lw.loads(text), steps=steps, failures="mark"))
-    assert table.value("swing_angle", "wheel") == pytest.approx(
-        1.5 * table.value("range_of_motion"), rel=1e-7
-    )
+    assert table.value("swing_angle", "wheel") == pytest.approx(1.5 * table.value("range_of_motion"), rel=1e-7)
 
 
 def test_loads_of_a_way_that_is_left_have_no_end_and_no_mean() -> None:

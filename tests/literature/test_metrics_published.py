@@ -119,13 +119,9 @@ def test_crank_rocker() -> None:
     """Transmission angle with crank and frame in line, swing with crank and coupler in line, by the cosine rule."""
     table = of("crank_rocker", 45)
     frame, crank, coupler, rocker = 4.0, 1.0, 3.5, 2.5
-    angles = [
-        acos((coupler**2 + rocker**2 - d**2) / (2 * coupler * rocker)) for d in (frame - crank, frame + crank)
-    ]
+    angles = [acos((coupler**2 + rocker**2 - d**2) / (2 * coupler * rocker)) for d in (frame - crank, frame + crank)]
     assert table.value("transmission_angle") == pytest.approx(min(min(a, pi - a) for a in angles), abs=1e-9)
-    reach = [
-        acos((frame**2 + rocker**2 - r**2) / (2 * frame * rocker)) for r in (coupler + crank, coupler - crank)
-    ]
+    reach = [acos((frame**2 + rocker**2 - r**2) / (2 * frame * rocker)) for r in (coupler + crank, coupler - crank)]
     assert table.value("swing_angle") == pytest.approx(reach[0] - reach[1], rel=1e-9)
     assert table.value("grashof") == pytest.approx(coupler + rocker - frame - crank)
     assert table["grashof"][0].remarks[0].key == "grashof.crank_rocker"
@@ -173,9 +169,7 @@ def test_shaking_of_each_order_is_that_of_fourier() -> None:
     machine, numbers = lw.loads(text), ["shaking_force_harmonic", "shaking_moment_harmonic"]
     forces = lw.solve_forces(lw.solve_motion(machine, steps=720))
     table = lw.metrics(forces, numbers)
-    many = lw.study(
-        machine, {"crank.length": [0.039, 0.04]}, metrics=[f"{n} {k}×" for n in numbers for k in (1, 2)]
-    )
+    many = lw.study(machine, {"crank.length": [0.039, 0.04]}, metrics=[f"{n} {k}×" for n in numbers for k in (1, 2)])
     phase = np.linspace(0.0, 2.0 * pi, 20001)
     for order in (1, 2):
         x, y, moment = (

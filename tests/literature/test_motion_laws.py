@@ -27,9 +27,7 @@ def test_modified_sine_with_constant_velocity_has_the_published_factors() -> Non
 U = np.linspace(0.0, 1.0, 37)
 
 
-@pytest.mark.parametrize(
-    ("shares", "name"), [((0.5, 0.0, 0.5), "cycloidal"), ((0.0, 0.0, 1.0), "simple_harmonic")]
-)
+@pytest.mark.parametrize(("shares", "name"), [((0.5, 0.0, 0.5), "cycloidal"), ((0.0, 0.0, 1.0), "simple_harmonic")])
 def test_the_family_contains_the_known_laws(shares: tuple[float, float, float], name: str) -> None:
     law = motion_law("sine_constant_cosine", **dict(zip(("sine", "constant", "cosine"), shares, strict=True)))
     inner = U[1:-1]
@@ -92,12 +90,7 @@ CROWDED = {"places": tuple(0.4 + 1e-5 * k for k in range(8)), "values": (0.1, 0.
         ("cycloidal", {"ratio": 2.0}, "laws.unknown_value", {"law": "cycloidal", "names": "ratio"}),
         ("polydyne", {}, "laws.missing_value", {"law": "polydyne", "names": "ratio"}),
         ("polydyne", {"ratio": -1.0}, "laws.polydyne", {}),
-        (
-            "sine_constant_cosine",
-            {"sine": 0.7, "constant": 0.3, "cosine": 0.3},
-            "laws.shares",
-            {"total": 1.3},
-        ),
+        ("sine_constant_cosine", {"sine": 0.7, "constant": 0.3, "cosine": 0.3}, "laws.shares", {"total": 1.3}),
         ("spline", {"places": (0.6, 0.3), "values": (0.1, 0.2)}, "laws.points", {"places": 2, "values": 2}),
         ("modified_sine", {"portion": (0.5, 0.4)}, "laws.portion", {"start": 0.5, "end": 0.4}),
         ("double_harmonic", {"crossover": 0.4}, "laws.crossover", {"crossover": 0.4}),

@@ -75,18 +75,14 @@ def test_propped_cantilever() -> None:
 
 def test_built_in_at_both_ends() -> None:
     q, p = 1000.0, 700.0
-    line = solved(
-        {"A": ("fixed", 0.0), "B": ("fixed", L)}, loads=[{"line": (-q, -q)}, {"force": -p, "at": L / 2}]
-    )
+    line = solved({"A": ("fixed", 0.0), "B": ("fixed", L)}, loads=[{"line": (-q, -q)}, {"force": -p, "at": L / 2}])
     close(line.moment(0.0)[0], -q * L**2 / 12 - p * L / 8)
     close(line.deflection(L / 2)[0], -(q * L**4 / 384 + p * L**3 / 192) / (E * J))
 
 
 def test_two_spans() -> None:
     q = 800.0
-    line = solved(
-        {"A": ("pinned", 0.0), "B": ("roller", L / 2), "C": ("roller", L)}, loads=[{"line": (-q, -q)}]
-    )
+    line = solved({"A": ("pinned", 0.0), "B": ("roller", L / 2), "C": ("roller", L)}, loads=[{"line": (-q, -q)}])
     close(line.reactions["B"][0], 1.25 * q * L / 2)
     close(line.moment(L / 2)[0], -q * (L / 2) ** 2 / 8)
 
@@ -110,9 +106,7 @@ def test_settlement_and_springs() -> None:
 def test_hinged_beam() -> None:
     """A cantilever carries half of the beam that hangs on its end by a hinge."""
     p, a = 1200.0, 1.2
-    line = solved(
-        {"A": ("fixed", 0.0), "B": ("roller", L)}, hinges=(a,), loads=[{"force": -p, "at": (a + L) / 2}]
-    )
+    line = solved({"A": ("fixed", 0.0), "B": ("roller", L)}, hinges=(a,), loads=[{"force": -p, "at": (a + L) / 2}])
     close(line.reactions["B"][0], p / 2)
     close(line.reactions["A"], (p / 2, p * a / 2))
     assert abs(line.moment(a)[0]) < 1e-9
@@ -129,18 +123,19 @@ def test_own_weight_stress_and_needed_modulus() -> None:
 
 def test_the_whole_is_in_balance() -> None:
     """A beam of everything: its slope turns by ∫M/EI, and its free end carries nothing."""
-    loads = [{"force": -900.0, "at": 0.7}, {"couple": 250.0, "at": 1.9}, {"line": (-300.0, -1400.0), "start": 0.4,
-             "end": 2.6}]  # fmt: skip
-    line = solved(
-        {"A": ("fixed", 0.0), "B": ("roller", 1.3), "C": ("spring", 2.8, 0.0, 8e4, 2e3)}, loads=loads
-    )
+    loads = [
+        {"force": -900.0, "at": 0.7},
+        {"couple": 250.0, "at": 1.9},
+        {"line": (-300.0, -1400.0), "start": 0.4, "end": 2.6},
+    ]
+    line = solved({"A": ("fixed", 0.0), "B": ("roller", 1.3), "C": ("spring", 2.8, 0.0, 8e4, 2e3)}, loads=loads)
     middle = (np.arange(6000) + 0.5) * L / 6000
     bent = float(line.moment(middle).sum()) * L / 6000 / (E * J)
     assert bent == pytest.approx(line.slope(L)[0] - line.slope(0.0)[0], rel=1e-6)
     assert line.deflection([0.0, 1.3]) == pytest.approx([0, 0], abs=1e-15)
-    assert line.moment(L, "left")[0] == pytest.approx(0, abs=1e-9) and line.shear(L, "left")[
-        0
-    ] == pytest.approx(0, abs=1e-9)
+    assert line.moment(L, "left")[0] == pytest.approx(0, abs=1e-9) and line.shear(L, "left")[0] == pytest.approx(
+        0, abs=1e-9
+    )
 
 
 FOURBAR = """
@@ -165,8 +160,7 @@ def test_coupler_bends_as_a_simple_beam_under_its_inertia() -> None:
     normal = np.stack([-e[:, 1], e[:, 0]], axis=1)
     length, rho, s = 0.5, 12.0, found.stations
     first, last = (
-        -rho * ((motion.point(p).acceleration - [0, -9.81]) * normal).sum(axis=1)
-        for p in ("coupler.B", "coupler.C")
+        -rho * ((motion.point(p).acceleration - [0, -9.81]) * normal).sum(axis=1) for p in ("coupler.B", "coupler.C")
     )
     rate = (last - first)[:, None] / length
     expected = -(first[:, None] * s * (length - s) / 2 + rate * s * (length**2 - s**2) / 6)
@@ -240,19 +234,14 @@ def test_a_bell_crank_of_two_even_bars_is_cut_as_the_statics_of_its_arms_demand(
     )
     text = text.replace("drawing: {A: [0.1 m, 0 m]}\n", "")
     mechanism = lw.loads(text)
-    problem = parts.LinkBending(
-        mechanism, "bell", STEEL, rectangle(0.03, 0.05), steps=24, axis=("B", "P", "C")
-    )
+    problem = parts.LinkBending(mechanism, "bell", STEEL, rectangle(0.03, 0.05), steps=24, axis=("B", "P", "C"))
     found = problem.solve()
     density = found.mass.density
     assert density(np.linspace(0, 0.7, 9)) == pytest.approx(np.full(9, 10.0), rel=1e-9)
     assert found.closure < 1e-9 * np.abs(found.normal).max()
     link, e = found.forces.motion.link("bell"), found.forces.motion.link("bell").direction
     ends = {"B": (0.4, e), "C": (0.3, np.stack([-e[:, 1], e[:, 0]], axis=1))}
-    force = {
-        "B": found.forces.reaction("B", on="bell"),
-        "C": 300 * np.array([np.cos(np.pi / 9), np.sin(np.pi / 9)]),
-    }
+    force = {"B": found.forces.reaction("B", on="bell"), "C": 300 * np.array([np.cos(np.pi / 9), np.sin(np.pi / 9)])}
     for name, (arm, way) in ends.items():
         beside = np.stack([-way[:, 1], way[:, 0]], axis=1)
         tip = (np.broadcast_to(force[name], beside.shape) * beside).sum(axis=1) * arm

@@ -34,18 +34,14 @@ def test_prices_are_derivatives_of_the_optimum() -> None:
     at = optimum(10.0, 3.0)
     for name, other in (("a", optimum(10.5, 3.0)), ("b", optimum(10.0, 3.5))):
         assert at.prices[name] == pytest.approx((other.value - at.value) / 0.5, abs=1e-9)
-    top = parts.Program.of(
-        free("x", "y", low=0.0), maximize="x + 2*y", subject_to={"a": "x + y <= 4", "b": "x >= 1"}
-    )
+    top = parts.Program.of(free("x", "y", low=0.0), maximize="x + 2*y", subject_to={"a": "x + y <= 4", "b": "x >= 1"})
     assert top.solve().prices == pytest.approx({"a": 2, "b": -1})
 
 
 def test_whole_numbers() -> None:
     """A knapsack by hand: 60, 100, 120 of weights 10, 20, 30 within 50."""
     chosen = {n: parts.Variable(0, 1, integer=True) for n in "abc"}
-    found = parts.Program.of(
-        chosen, maximize="60*a + 100*b + 120*c", subject_to={"w": "10*a + 20*b + 30*c <= 50"}
-    )
+    found = parts.Program.of(chosen, maximize="60*a + 100*b + 120*c", subject_to={"w": "10*a + 20*b + 30*c <= 50"})
     assert found.solve().x == {"a": 0, "b": 1, "c": 1} and found.solve().way == "integer"
 
 
@@ -136,8 +132,9 @@ def test_conflicts_are_irreducible() -> None:
 def test_units_enter() -> None:
     """The largest force of a bar of 20 mm by 5 mm at 100 MPa."""
     force = {"F": parts.Variable(low=0.0, dimension=(1, 1, -2, 0))}
-    program = parts.Program.of(force, maximize="F", subject_to={"s": "F/(b*t) <= 100 MPa"},
-                               parameters={"b": "20 mm", "t": "5 mm"})  # fmt: skip
+    program = parts.Program.of(
+        force, maximize="F", subject_to={"s": "F/(b*t) <= 100 MPa"}, parameters={"b": "20 mm", "t": "5 mm"}
+    )
     assert program.solve().value == pytest.approx(10e3)
     assert program.solve().prices["s"] == pytest.approx(1e-4)
 

@@ -59,10 +59,16 @@ def test_the_printed_matrix_gives_the_printed_reactions(name: str) -> None:
 def test_matrix_of_the_lectures_two_bars() -> None:
     """The 6 × 6 system of moments about A and B, put together by hand from lengths and angles."""
     c1, s1 = 2 * math.cos(math.radians(30)), 2 * math.sin(math.radians(30))
-    by_hand = np.array([
-        [1, 0, 0, 0, -1, 0], [0, 1, 0, 0, 0, -1], [0, 0, 0, 0, s1, -c1],
-        [0, 0, 1, 0, 1, 0], [0, 0, 0, 1, 0, 1], [0, 0, 0, 0, -1, -1],
-    ])  # fmt: skip
+    by_hand = np.array(
+        [
+            [1, 0, 0, 0, -1, 0],
+            [0, 1, 0, 0, 0, -1],
+            [0, 0, 0, 0, s1, -c1],
+            [0, 0, 1, 0, 1, 0],
+            [0, 0, 0, 1, 0, 1],
+            [0, 0, 0, 0, -1, -1],
+        ]
+    )
     balance = parts.equilibrium(lw.load("gallery:two_bars_equilibrium")).balance
     assert balance is not None and balance.names == ("Ax", "Ay", "Bx", "By", "Cx", "Cy")
     assert balance.on == ("bar_1", "bar_1", "bar_2", "bar_2", "bar_2", "bar_2")
@@ -159,12 +165,8 @@ def test_belt_brake_and_v_belt() -> None:
     ratio = math.exp(0.3 * math.radians(225))
     assert brake.tight / brake.slack == pytest.approx(ratio, rel=1e-12)
     assert brake.tight - brake.slack == pytest.approx(1500, rel=1e-12)
-    vee = parts.Belt(
-        friction=0.3, wrap=math.pi, groove=math.radians(38), tight=500, mass=0.2, speed=20
-    ).solve()
-    assert (500 - 80) / (vee.slack - 80) == pytest.approx(
-        math.exp(0.3 * math.pi / math.sin(math.radians(19)))
-    )
+    vee = parts.Belt(friction=0.3, wrap=math.pi, groove=math.radians(38), tight=500, mass=0.2, speed=20).solve()
+    assert (500 - 80) / (vee.slack - 80) == pytest.approx(math.exp(0.3 * math.pi / math.sin(math.radians(19))))
 
 
 def test_wedge_without_friction_is_an_inclined_plane() -> None:
@@ -263,13 +265,7 @@ HEAVY = "mass: 2 kg, radius: 100 mm, angle: 0 deg"
     [
         ("planes: {P: {radius: 80 mm, at: 0 mm}}", "planes: {}", "planes", "rotor_planes", {"count": 0}),
         ("{P: {", "{Q: {radius: 1 m, at: 0 mm}, P: {", "planes.P.at", "rotor_place", {}),
-        (
-            "{P: {",
-            "{Q: {radius: 1 m}, R: {radius: 1 m, at: 1 m}, P: {",
-            "planes",
-            "rotor_planes",
-            {"count": 3},
-        ),
+        ("{P: {", "{Q: {radius: 1 m}, R: {radius: 1 m, at: 1 m}, P: {", "planes", "rotor_planes", {"count": 3}),
         (HEAVY, HEAVY.replace("2 kg", "0 kg"), "masses.a.mass", "range", {"shown": "0 kg"}),
     ],
 )

@@ -31,9 +31,7 @@ def test_polynomial_through_exact_values() -> None:
 def test_several_explaining_samples() -> None:
     rng = np.random.default_rng(5)
     a, b = rng.normal(size=(2, 30))
-    found = solved(
-        {"a": a, "b": b, "y": 1 + 2 * a - 3 * b}, regressions={"r": parts.Fitting("y", ("a", "b"))}
-    )
+    found = solved({"a": a, "b": b, "y": 1 + 2 * a - 3 * b}, regressions={"r": parts.Fitting("y", ("a", "b"))})
     assert found.regressions["r"].coefficients == pytest.approx([1, 2, -3], abs=1e-12)
 
 

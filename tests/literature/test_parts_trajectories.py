@@ -64,9 +64,7 @@ def test_faint_linear_drag_shortens_a_throw_by_its_first_order(drag: float) -> N
     assert found.range == pytest.approx(u * time * (1 - rate * time / 2), rel=5 * rate**2 + 1e-13)
 
 
-@pytest.mark.parametrize(
-    ("speed", "angle", "height"), [(800, 80, 0), (800, 2, 0), (800, 0, 1.5), (50, -30, 900)]
-)
+@pytest.mark.parametrize(("speed", "angle", "height"), [(800, 80, 0), (800, 2, 0), (800, 0, 1.5), (50, -30, 900)])
 def test_a_fast_light_particle_against_an_integration_in_equal_steps(
     speed: float, angle: float, height: float
 ) -> None:

@@ -54,9 +54,7 @@ def test_free_decay() -> None:
     time, moved = found.response()
     zeta = 100.0 / (2 * math.sqrt(K * M))
     damped = W * math.sqrt(1 - zeta**2)
-    expected = (
-        0.01 * np.exp(-zeta * W * time) * (np.cos(damped * time) + zeta * W / damped * np.sin(damped * time))
-    )
+    expected = 0.01 * np.exp(-zeta * W * time) * (np.cos(damped * time) + zeta * W / damped * np.sin(damped * time))
     assert found.damping_ratios[0] == pytest.approx(zeta, rel=1e-12)
     assert np.abs(moved[:, 0] - expected).max() < 1e-9 * 0.01
 
@@ -69,9 +67,7 @@ def test_forced_by_force_ground_and_unbalance(r: float) -> None:
     passed = math.sqrt(1 + (2 * zeta * r) ** 2) / shaken
     force = one(c, excitation=parts.Excitation("body", force=30.0, frequency=w[0])).solve()
     assert abs(force.amplitudes(w)[0, 0]) == pytest.approx(30 / K / shaken, rel=1e-9)
-    assert -np.angle(force.amplitudes(w)[0, 0]) == pytest.approx(
-        math.atan2(2 * zeta * r, 1 - r * r), rel=1e-9
-    )
+    assert -np.angle(force.amplitudes(w)[0, 0]) == pytest.approx(math.atan2(2 * zeta * r, 1 - r * r), rel=1e-9)
     assert force.transmissibility(w)[0] == pytest.approx(passed, rel=1e-9)
     ground = one(c, excitation=parts.Excitation(base=0.002, frequency=w[0])).solve()
     assert ground.transmissibility(w)[0] == pytest.approx(passed, rel=1e-9)
@@ -153,14 +149,10 @@ def test_discs_are_released_and_turned_in_radians() -> None:
     found = parts.loads(text + "start: {disc: {displacement: 10 deg, velocity: 30 rpm}}\n").solve()
     time, turned = found.response()
     first, rate = math.radians(10), math.pi
-    assert turned[:, 0] == pytest.approx(
-        first * np.cos(own * time) + rate / own * np.sin(own * time), abs=1e-9
-    )
+    assert turned[:, 0] == pytest.approx(first * np.cos(own * time) + rate / own * np.sin(own * time), abs=1e-9)
     assert list(found.columns()) == ["time [s]", "disc [rad]"]
     forced = parts.loads(text + "excitation: {on: disc, force: 20 N·m, frequency: 4 Hz}\n").solve()
-    assert abs(forced.amplitudes(np.array([8 * math.pi]))[0, 0]) == pytest.approx(
-        20 / (100 - 0.02 * 64 * math.pi**2)
-    )
+    assert abs(forced.amplitudes(np.array([8 * math.pi]))[0, 0]) == pytest.approx(20 / (100 - 0.02 * 64 * math.pi**2))
     assert list(forced.columns())[1] == "disc amplitude [rad]"
 
 
@@ -223,9 +215,14 @@ def test_response_in_time_leaves_the_residual_amplitude() -> None:
 @pytest.mark.rotating
 @pytest.mark.parametrize(
     ("law", "n", "zeta"),
-    [("cycloidal", 0.3, 0.0), ("cycloidal", 40.3, 0.05), ("constant_acceleration", 3.3, 0.1),
-     ("modified_trapezoidal", 12.2, 0.02), ("constant_velocity", 1.7, 0.2)],
-)  # fmt: skip
+    [
+        ("cycloidal", 0.3, 0.0),
+        ("cycloidal", 40.3, 0.05),
+        ("constant_acceleration", 3.3, 0.1),
+        ("modified_trapezoidal", 12.2, 0.02),
+        ("constant_velocity", 1.7, 0.2),
+    ],
+)
 def test_largest_differences_against_the_convolution_of_the_cams_acceleration(
     law: str, n: float, zeta: float
 ) -> None:
@@ -281,8 +278,10 @@ def test_unbalanced_rotor_on_mounts() -> None:
     assert found.listed() == [1]
     rows = [
         (row["unit"], key[-1], row["value"])
-        for block in found.data().values() if isinstance(block, dict)
-        for key, row in block.items() if isinstance(row, dict)
-    ]  # fmt: skip
+        for block in found.data().values()
+        if isinstance(block, dict)
+        for key, row in block.items()
+        if isinstance(row, dict)
+    ]
     assert ("m", "x", pytest.approx(abs(found.moved[1, 0]), rel=1e-9)) in rows
     assert ("N", "y", pytest.approx(abs(found.passed[1, 1]), rel=1e-9)) in rows

@@ -66,9 +66,7 @@ def test_without_the_cam_bed_and_cylinder_differ_as_reproduced(still: lw.Motion)
     assert limits == pytest.approx(1e3 * (OUTER - math.sqrt((0.7025 - 0.198) ** 2 - 0.0605**2)), abs=2e-3)
 
 
-def test_with_the_cam_bed_and_cylinder_agree_in_the_zone_to_a_millionth_of_a_millimetre(
-    press: lw.Mechanism,
-) -> None:
+def test_with_the_cam_bed_and_cylinder_agree_in_the_zone_to_a_millionth_of_a_millimetre(press: lw.Mechanism) -> None:
     motion = lw.solve_motion(press, steps=2880)
     phi, _, bed, surface = parts(motion)
     zone = (phi >= math.radians(DRIVER[0])) & (phi <= math.radians(DRIVER[-1]))
@@ -78,9 +76,7 @@ def test_with_the_cam_bed_and_cylinder_agree_in_the_zone_to_a_millionth_of_a_mil
     assert np.abs(rate).max() < 1e-6 * np.abs(motion.point("U").velocity[:, 0]).max()
 
 
-def test_the_lift_in_the_file_is_the_one_computed_from_the_motion(
-    press: lw.Mechanism, still: lw.Motion
-) -> None:
+def test_the_lift_in_the_file_is_the_one_computed_from_the_motion(press: lw.Mechanism, still: lw.Motion) -> None:
     phi, slider, _, surface = parts(still)
     turned = np.unwrap(still.link("bell_crank").angle)
     zone = tuple(np.interp(np.radians(DRIVER[[0, -1]]), phi, turned).tolist())

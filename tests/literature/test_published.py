@@ -44,14 +44,10 @@ def test_only_what_a_source_prints_is_called_printed(everything: Validation) -> 
     unprinted = ("Cantilever", "Two heavy bars", "Four-bar for three")
     assert all(any(each.case.case.startswith(case) for each in everything.checks) for case in unprinted)
     assert not any(each["case"].startswith(unprinted) for each in printed)
-    press = {
-        each["what"]: each["printed"] for each in printed if each["source"].startswith("平臺印刷機主傳動")
-    }
+    press = {each["what"]: each["printed"] for each in printed if each["source"].startswith("平臺印刷機主傳動")}
     wanted = {"P0": "1.164670", "stroke bed_guide": "795.2122 mm", "follower.angle": "213.0665 deg"}
     assert wanted.items() <= press.items() and "78.7127 deg" in press.values()
-    conveyor = [
-        each for each in printed if each["case"] == "Swinging conveyor, six-bar" and each["place"] == "0 deg"
-    ]
+    conveyor = [each for each in printed if each["case"] == "Swinging conveyor, six-bar" and each["place"] == "0 deg"]
     assert len(conveyor) == 4  # three angles and the slider's place; its rates are the corrected ones
 
 
@@ -74,12 +70,7 @@ def again(check: Checked, what: str, text: str) -> Checked:
 
 @pytest.mark.parametrize(
     ("what", "text", "digits"),
-    [
-        ("mobility", "1", 0.0),
-        ("mobility", "2", -1.0),
-        ("mobility", "1.3", -3.0),
-        ("mobilitat", "1", float("inf")),
-    ],
+    [("mobility", "1", 0.0), ("mobility", "2", -1.0), ("mobility", "1.3", -3.0), ("mobilitat", "1", float("inf"))],
 )
 def test_a_number_that_differs_is_found(everything: Validation, what: str, text: str, digits: float) -> None:
     found = again(of_case(everything.checks, "crank_rocker", "mobility"), what, text)

@@ -195,9 +195,12 @@ def test_the_area_of_a_group_without_closed_form_has_a_gradient() -> None:
 def test_the_least_area_for_a_stroke_is_found_with_exact_gradients() -> None:
     """A stroke of 0.5 m needs a crank of 0.25 m, and the plate (0.5 + 0.5) 0.4 m²."""
     found = lw.optimize(
-        lw.loads(SLIDER), vary={"crank.length": "0.1..0.6 m"}, minimize="swept_area_of_link plate",
-        keep={"plate.B.x range": "at least 0.5 m"}, evaluations=200,
-    )  # fmt: skip
+        lw.loads(SLIDER),
+        vary={"crank.length": "0.1..0.6 m"},
+        minimize="swept_area_of_link plate",
+        keep={"plate.B.x range": "at least 0.5 m"},
+        evaluations=200,
+    )
     assert found.exact
     assert found.mechanism().dimension("crank.length") == pytest.approx(0.25, rel=1e-6)
     assert area(found.mechanism(), "plate") == pytest.approx(0.4, rel=1e-6)
@@ -216,9 +219,7 @@ driver:
 """)
     radius = np.hypot(1.0, 0.5)
     around = np.linspace(-0.4, 0.9, 200_001)
-    arcs = np.concatenate(
-        [[0.0], 2.0 * np.exp(1j * around), radius * np.exp(1j * (around + np.arctan2(0.5, 1.0)))]
-    )
+    arcs = np.concatenate([[0.0], 2.0 * np.exp(1j * around), radius * np.exp(1j * (around + np.arctan2(0.5, 1.0)))])
     expected = ConvexHull(np.column_stack([arcs.real, arcs.imag])).volume
     for steps in (12, 36, 100):
         table = lw.metrics(lw.solve_motion(crank, steps=steps), "swept_area")
@@ -255,12 +256,7 @@ def test_points_that_pass_their_places_twice_are_taken_once() -> None:
     turn = np.linspace(0.0, 2.0 * pi, 40001)
     way = 0.1736864645474622 * turn * np.exp(1j * -0.7915244722085526)
     places = [drawn["P2"] - way, drawn["P3"] - way, *([drawn[key]] for key in ("P0", "P6", "P8", "P10"))]
-    for point, centre, ratio in (
-        ("P1", "P0", 1.0),
-        ("P5", "P6", -1.5),
-        ("P7", "P8", -1.0),
-        ("P9", "P10", 1.5),
-    ):
+    for point, centre, ratio in (("P1", "P0", 1.0), ("P5", "P6", -1.5), ("P7", "P8", -1.0), ("P9", "P10", 1.5)):
         places.append(drawn[centre] + (drawn[point] - drawn[centre]) * np.exp(1j * ratio * turn))
     places.append([0.09630876339894974 + 0.19991572513015027j])
     every = np.concatenate(places)

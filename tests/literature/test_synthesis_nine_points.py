@@ -9,9 +9,7 @@ import pytest
 
 import linkwright as lw
 
-PROBLEM_3 = [
-    (0.25, 0), (0.52, 0.1), (0.8, 0.7), (1.2, 1), (1.4, 1.3), (1.1, 1.48), (0.7, 1.4), (0.2, 1), (0.02, 0.4),
-]  # fmt: skip
+PROBLEM_3 = [(0.25, 0), (0.52, 0.1), (0.8, 0.7), (1.2, 1), (1.4, 1.3), (1.1, 1.48), (0.7, 1.4), (0.2, 1), (0.02, 0.4)]
 
 
 def test_a_hidden_crank_rocker_is_among_the_solutions() -> None:

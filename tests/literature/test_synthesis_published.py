@@ -16,15 +16,39 @@ import linkwright as lw
 
 FIVE = [(3, 3), (2.759, 3.363), (2.372, 3.663), (1.89, 3.862), (1.355, 3.943)]
 EIGHTEEN = [
-    (0.5, 1.1), (0.4, 1.1), (0.3, 1.1), (0.2, 1), (0.1, 0.9), (0.05, 0.75), (0.02, 0.6), (0, 0.5), (0, 0.4),
-    (0.03, 0.3), (0.1, 0.25), (0.15, 0.2), (0.2, 0.3), (0.3, 0.4), (0.4, 0.5), (0.5, 0.7), (0.6, 0.9), (0.6, 1),
-]  # fmt: skip
+    (0.5, 1.1),
+    (0.4, 1.1),
+    (0.3, 1.1),
+    (0.2, 1),
+    (0.1, 0.9),
+    (0.05, 0.75),
+    (0.02, 0.6),
+    (0, 0.5),
+    (0, 0.4),
+    (0.03, 0.3),
+    (0.1, 0.25),
+    (0.15, 0.2),
+    (0.2, 0.3),
+    (0.3, 0.4),
+    (0.4, 0.5),
+    (0.5, 0.7),
+    (0.6, 0.9),
+    (0.6, 1),
+]
 #: The sums of squares that the sources print for them.
 OF_FIVE, OF_EIGHTEEN = 7.4157513e-7, 0.0090288846
 ELLIPSE = [
-    (20, 10), (17.66, 15.142), (11.736, 17.878), (5, 16.928), (0.60307, 12.736), (0.60307, 7.2638),
-    (5, 3.0718), (11.736, 2.1215), (17.66, 4.8577), (20, 10),
-]  # fmt: skip
+    (20, 10),
+    (17.66, 15.142),
+    (11.736, 17.878),
+    (5, 16.928),
+    (0.60307, 12.736),
+    (0.60307, 7.2638),
+    (5, 3.0718),
+    (11.736, 2.1215),
+    (17.66, 4.8577),
+    (20, 10),
+]
 HALF_CIRCLE = [(0, 0), (1.9098, 5.8779), (6.9098, 9.5106), (13.09, 9.5106), (18.09, 5.8779), (20, 0)]
 LINE = [(20, 20 + 5 * k) for k in range(6)]
 SEEDS = (0, 1, 2)
@@ -80,8 +104,7 @@ def test_a_timed_candidate_is_at_its_point_at_its_angle() -> None:
     found = lw.path_generation(EIGHTEEN, angles=np.arange(18) * math.pi / 9).best
     motion = lw.solve_motion(found.mechanism(), steps=18)
     squares = sum(
-        min(np.sum((motion.point("P").position[j * turn % 18] - EIGHTEEN[j]) ** 2) for turn in [1])
-        for j in range(18)
+        min(np.sum((motion.point("P").position[j * turn % 18] - EIGHTEEN[j]) ** 2) for turn in [1]) for j in range(18)
     )
     backwards = sum(np.sum((motion.point("P").position[-j % 18] - EIGHTEEN[j]) ** 2) for j in range(18))
     assert min(squares, backwards) == pytest.approx(found.error, rel=1e-6)
@@ -91,9 +114,7 @@ def test_slider_crank_of_the_printing_press() -> None:
     """Its lengths are compared in test_published; they have the stroke and the ratios of the task, K and μ follow."""
     best = lw.synthesize("slider_crank", stroke=0.3975, rod_ratio=3.55, offset_ratio=0.305).best
     r, rod, e = (best.values[f"{name} [m]"] for name in ("crank", "rod", "offset"))
-    assert math.sqrt((r + rod) ** 2 - e**2) - math.sqrt((rod - r) ** 2 - e**2) == pytest.approx(
-        0.3975, rel=1e-9
-    )
+    assert math.sqrt((r + rod) ** 2 - e**2) - math.sqrt((rod - r) ** 2 - e**2) == pytest.approx(0.3975, rel=1e-9)
     assert (rod / r, e / r) == pytest.approx((3.55, 0.305), rel=1e-9)
     theta = math.asin(e / (rod - r)) - math.asin(e / (rod + r))
     assert best.values["quick_return_ratio"] == pytest.approx((math.pi + theta) / (math.pi - theta), rel=1e-9)
@@ -133,9 +154,7 @@ def test_press_lengths_rounded_to_half_millimetres() -> None:
     assert [1e3 * each for each in double.lengths().values()] == pytest.approx([139.5, 136.5, 162.5, 55])
     slider = lw.synthesize("slider_crank", stroke=0.3975, rod_ratio=3.55, offset_ratio=0.305, rounding=5e-4)
     values = slider.best.values
-    assert [1e3 * values[f"{name} [m]"] for name in ("crank", "rod", "offset")] == pytest.approx(
-        [198, 702.5, 60.5]
-    )
+    assert [1e3 * values[f"{name} [m]"] for name in ("crank", "rod", "offset")] == pytest.approx([198, 702.5, 60.5])
     assert 1e3 * values["stroke [m]"] == pytest.approx(397.6061, abs=5e-5)
     shown = {line.symbol: line.value for line in slider.worked().equations}
     assert shown["K"] == pytest.approx(1.0343, abs=5e-5)
@@ -145,13 +164,9 @@ def test_press_lengths_rounded_to_half_millimetres() -> None:
 def test_press_normal_equations_as_printed() -> None:
     """What is worked out is the report's, as closely as its pairs, printed to 1e-4°, determine it."""
     inputs, outputs = np.radians(PHI), np.radians(PSI)
-    found = lw.function_generation(
-        inputs, outputs, input_zero=0, output_zero=0, frame=0.055, equation_error=True
-    )
+    found = lw.function_generation(inputs, outputs, input_zero=0, output_zero=0, frame=0.055, equation_error=True)
     steps: Any = found.worked().data()["steps"]
-    shown = [
-        numeric_matrices(item["latex"]) for step in steps for item in step["items"] if "relation" in item
-    ]
+    shown = [numeric_matrices(item["latex"]) for step in steps for item in step["items"] if "relation" in item]
     (normal, moment), (solution,) = [each for each in shown if each][-2:]
     lengths = {line.symbol: line.value for line in found.worked().equations}
     ours = np.concatenate(
@@ -160,9 +175,8 @@ def test_press_normal_equations_as_printed() -> None:
     printed = np.concatenate([np.ravel(NORMAL), RIGHT, P, LENGTHS])
     both = np.concatenate([inputs, outputs])
     slopes = np.array(
-        [of_pairs(*np.split(both + step, 2)) - of_pairs(*np.split(both - step, 2))
-         for step in HALF * np.eye(20)]
-    )  # fmt: skip
+        [of_pairs(*np.split(both + step, 2)) - of_pairs(*np.split(both - step, 2)) for step in HALF * np.eye(20)]
+    )
     undetermined = 0.5 * np.abs(slopes).sum(0) + 1e-6
     assert (np.abs(ours - printed) <= undetermined + np.append(np.zeros(15), (5e-5,) * 3)).all()
     assert ours == pytest.approx(of_pairs(inputs, outputs), abs=1e-6)
@@ -179,9 +193,7 @@ def test_press_double_crank_of_the_report_and_better_ones() -> None:
     assert lengths["input"] == pytest.approx(0.1394962, abs=3e-6)
     assert lengths["coupler"] == pytest.approx(0.1366159, abs=3e-6)
     assert lengths["output"] == pytest.approx(0.1624671, abs=3e-6)
-    same = lw.function_generation(
-        inputs, outputs, input_zero=0, output_zero=0, frame=0.055, turning=True
-    ).best
+    same = lw.function_generation(inputs, outputs, input_zero=0, output_zero=0, frame=0.055, turning=True).best
     assert same.error < report.error
     free = lw.function_generation(
         inputs, outputs, frame=0.055, turning=True, transmission_angle=report.transmission_angle

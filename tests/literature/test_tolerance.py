@@ -61,9 +61,7 @@ def test_a_swing_angle_spreads_as_in_closed_form_and_so_does_its_range() -> None
     sigma = np.array([0.001, 0.002, 0.002, 0.008 / 3])
     for name in found.study.of:
         assert found.nominal(name) == pytest.approx(float(swing(*FOURBAR.values())), rel=1e-9)
-        assert found.linear(name) == pytest.approx(
-            math.sqrt(float(((gradient() * sigma) ** 2).sum())), rel=1e-7
-        )
+        assert found.linear(name) == pytest.approx(math.sqrt(float(((gradient() * sigma) ** 2).sum())), rel=1e-7)
     assert "rad/m" in found.text()
 
 
@@ -98,9 +96,7 @@ def test_stroke_of_a_slider_crank_spreads_twice_as_the_crank() -> None:
 
 def test_free_pin_spreads_the_slider_along_the_rod() -> None:
     """∂x/∂(hole) has the size 1/cos β; its spread over directions is c/(√2 cos β)."""
-    one = ToleranceStudy(
-        lw.loads(SLIDER), clearances={"B": Clearance(1e-4, "rod")}, curves=("B.x",), steps=72
-    )
+    one = ToleranceStudy(lw.loads(SLIDER), clearances={"B": Clearance(1e-4, "rod")}, curves=("B.x",), steps=72)
     place, _, deviation = one.solve().curve("B.x")
     beta = np.arcsin(100 / 400 * np.sin(place))
     assert deviation == pytest.approx(1e-4 / math.sqrt(2) / np.cos(beta), rel=1e-9)
@@ -164,9 +160,7 @@ def test_a_pressed_pin_that_turns_keeps_lagranges_equation() -> None:
     for t in (0.05, 0.21, 0.4, 0.55, 0.83):
         theta, rate, _ = (float(each[0]) for each in law.coordinate(np.array([t])))
         h = 2e-4
-        change = (
-            (momentum(t - 2 * h) - 8 * momentum(t - h) + 8 * momentum(t + h) - momentum(t + 2 * h)) / 12 / h
-        )
+        change = (momentum(t - 2 * h) - 8 * momentum(t - h) + 8 * momentum(t + h) - momentum(t + 2 * h)) / 12 / h
         pull = energy(speed * t, theta + 1e-20j, rate).imag / 1e-20
         force = -500 * places(speed * t, theta + 1e-20j)[3].imag / 1e-20
         worst = max(worst, abs(change - pull - force) / (500 * size))

@@ -28,10 +28,16 @@ JAW = {"O5 on jaw.magnitude": "F_O5,5", "O5 on jaw.direction": "∠F_O5,5"}
 ROCKER = {"O3 on jaw.magnitude": "F_O3,3", "O3 on jaw.direction": "∠F_O3,3"}
 PLACES = {"coupler.angle": "φ2", "rocker.angle": "φ3", "rod.angle": "φ4", "F.position.x": "x_F"}
 RATES = {
-    "coupler.angular_velocity": "ω2", "rocker.angular_velocity": "ω3", "rod.angular_velocity": "ω4",
-    "coupler.angular_acceleration": "α2", "rocker.angular_acceleration": "α3", "rod.angular_acceleration": "α4",
-    "F.velocity.x": "v_Fx", "F.acceleration.x": "a_Fx", "input_torque": "M_driver",
-}  # fmt: skip
+    "coupler.angular_velocity": "ω2",
+    "rocker.angular_velocity": "ω3",
+    "rod.angular_velocity": "ω4",
+    "coupler.angular_acceleration": "α2",
+    "rocker.angular_acceleration": "α3",
+    "rod.angular_acceleration": "α4",
+    "F.velocity.x": "v_Fx",
+    "F.acceleration.x": "a_Fx",
+    "input_torque": "M_driver",
+}
 CASES = [
     ("jaw_crusher_sixbar_as_reported", 0.0, JAW),
     ("jaw_crusher_sixbar", 0.0, {"jaw.angle": "φ5"}),
@@ -43,9 +49,7 @@ CASES = [
 
 
 #: Of a report that prints a table of reactions: its first row (鉸鏈式顎式破碎機方案分析, 東北大學).
-FIRST_ROWS = {
-    "jaw_crusher_fourbar": {"O3 on jaw.magnitude": "10261.396 N", "O3 on jaw.direction": "102.685 deg"},
-}
+FIRST_ROWS = {"jaw_crusher_fourbar": {"O3 on jaw.magnitude": "10261.396 N", "O3 on jaw.direction": "102.685 deg"}}
 
 
 def numbers(model: str, degrees: float) -> dict[str, str]:
@@ -58,9 +62,7 @@ def numbers(model: str, degrees: float) -> dict[str, str]:
 
 
 @pytest.mark.parametrize(("model", "degrees", "symbols"), CASES)
-def test_a_worked_solution_prints_the_published_numbers(
-    model: str, degrees: float, symbols: dict[str, str]
-) -> None:
+def test_a_worked_solution_prints_the_published_numbers(model: str, degrees: float, symbols: dict[str, str]) -> None:
     """To the rounding of both prints; angles over full turns."""
     expected, lines = numbers(model, degrees), results(model, degrees)
     for what, symbol in every(symbols.items()):
@@ -68,8 +70,4 @@ def test_a_worked_solution_prints_the_published_numbers(
         line, scale = lines[symbol], 180.0 / math.pi if unit == "rad" else 1.0
         gap = float(line.result) - scale * float(text)
         gap = math.remainder(gap, 360.0) if line.unit == "°" else gap
-        assert abs(gap) <= 0.51 * (last_digit(line.result) + scale * last_digit(text)), (
-            what,
-            text,
-            line.result,
-        )
+        assert abs(gap) <= 0.51 * (last_digit(line.result) + scale * last_digit(text)), (what, text, line.result)

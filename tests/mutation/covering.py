@@ -96,16 +96,10 @@ def compiled_at(path: str) -> dict[int, int]:
     """Lines of functions whose source is compiled, with the line that has it compiled: nothing else shows that they
     run."""
     tree = ast.parse((SOURCE / path).read_text("utf-8"))
-    calls = [
-        each for each in ast.walk(tree) if isinstance(each, ast.Call) and ast.unparse(each.func) == "Kernels"
-    ]
+    calls = [each for each in ast.walk(tree) if isinstance(each, ast.Call) and ast.unparse(each.func) == "Kernels"]
     given = {each.id: call.lineno for call in calls for each in ast.walk(call) if isinstance(each, ast.Name)}
     functions = [each for each in ast.walk(tree) if isinstance(each, ast.FunctionDef) and each.name in given]
-    return {
-        k: given[each.name]
-        for each in functions
-        for k in range(each.body[0].lineno, (each.end_lineno or 0) + 1)
-    }
+    return {k: given[each.name] for each in functions for k in range(each.body[0].lineno, (each.end_lineno or 0) + 1)}
 
 
 def fingerprint(*folders: str) -> str:

@@ -77,9 +77,7 @@ class _Probing(importlib.abc.MetaPathFinder, importlib.abc.Loader):
         if found.relative_to(SOURCE).as_posix() not in self.plan:
             return None
         package = [str(file)] if file.is_dir() else None
-        return importlib.util.spec_from_file_location(
-            name, found, loader=self, submodule_search_locations=package
-        )
+        return importlib.util.spec_from_file_location(name, found, loader=self, submodule_search_locations=package)
 
     def create_module(self, spec: ModuleSpec) -> None:
         return None

@@ -22,9 +22,20 @@ from tests.mutation.probes import SOURCE
 
 #: Imported once, before the processes are forked; nothing of the package is among them.
 HEAVY = (
-    "numpy", "scipy.optimize", "scipy.interpolate", "scipy.stats", "scipy.linalg", "pytest",
-    "llvmlite.binding", "yaml", "mpmath", "matplotlib.figure", "pandas", "ast", "unittest.mock",
-)  # fmt: skip
+    "numpy",
+    "scipy.optimize",
+    "scipy.interpolate",
+    "scipy.stats",
+    "scipy.linalg",
+    "pytest",
+    "llvmlite.binding",
+    "yaml",
+    "mpmath",
+    "matplotlib.figure",
+    "pandas",
+    "ast",
+    "unittest.mock",
+)
 QUIETLY = (
     "-x",
     "-q",

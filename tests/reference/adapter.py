@@ -63,9 +63,7 @@ def _joint(mechanism: Mechanism, joint: Any) -> list[Constraint]:
         return weld(joint.name, a, b, joint.angle)
     if joint.kind == "prismatic":
         at = link_points(mechanism, joint.block)[joint.at]
-        return prismatic(
-            joint.name, _guide(mechanism, joint), (joint.block, at, joint.block_angle), joint.offset
-        )
+        return prismatic(joint.name, _guide(mechanism, joint), (joint.block, at, joint.block_angle), joint.offset)
     raise NotImplementedError(joint.kind)
 
 
@@ -116,9 +114,7 @@ def starting_position(mechanism: Mechanism, system: Multibody, u0: Array) -> tup
 
 def _as_the_words_say(mechanism: Mechanism, system: Multibody, drawn: Array) -> bool:
     """Whether the drawn position fulfils all words that the file gives."""
-    poses = {
-        name: (float(q[0]), float(q[1]), float(q[2])) for name, q in zip(system.index, drawn, strict=True)
-    }
+    poses = {name: (float(q[0]), float(q[1]), float(q[2])) for name, q in zip(system.index, drawn, strict=True)}
     inner = (mechanism.joints[name].joined for name in mechanism.assembly)
     return all(fulfils_words(mechanism, poses, [k for k in links if k != FRAME]) for links in inner)
 

@@ -51,9 +51,7 @@ def motion_comparison(mechanism: Any, motion: Any, reference: Motion, *, derived
         if derived:
             _add_point(found, f"mass centre of {name}", ours.centre, reference.point(name, link.centre))
         for point, local in link.points.items():
-            _add_point(
-                found, f"{name}.{point}", motion.point(f"{name}.{point}"), reference.point(name, local)
-            )
+            _add_point(found, f"{name}.{point}", motion.point(f"{name}.{point}"), reference.point(name, local))
     for joint in mechanism.joints.values() if derived else ():
         _add_joint(found, mechanism, motion, reference, joint)
     return found
@@ -73,9 +71,7 @@ def _add_joint(found: Comparison, mechanism: Any, motion: Any, reference: Motion
         first, second = (reference.angle(link) for link in joint.links[:2])
         turned = np.stack([np.cos(ours.displacement), np.sin(ours.displacement)], -1)
         relative = second[0] - first[0]
-        found.add(
-            "direction", f"joint {joint.name}", turned, np.stack([np.cos(relative), np.sin(relative)], -1)
-        )
+        found.add("direction", f"joint {joint.name}", turned, np.stack([np.cos(relative), np.sin(relative)], -1))
         found.add("angular velocity", f"joint {joint.name}", ours.velocity, second[1] - first[1])
         found.add("angular acceleration", f"joint {joint.name}", ours.acceleration, second[2] - first[2])
         return

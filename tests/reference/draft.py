@@ -203,8 +203,7 @@ def cylinder_and_boom(d: Draft) -> str:
     d.join(foot, barrel, FRAME)
     f = d.links[FRAME][foot]
     head = d.well_placed(
-        lambda: d.around((0.0, 0.0), 0.5, 1.2),
-        lambda p: abs(cross(d.unit((0.0, 0.0), p), d.unit(f, p, 0.0))) > WELL,
+        lambda: d.around((0.0, 0.0), 0.5, 1.2), lambda p: abs(cross(d.unit((0.0, 0.0), p), d.unit(f, p, 0.0))) > WELL
     )
     pin = d.new_point(boom, head)
     d.join(pin, rod, boom)

@@ -105,9 +105,7 @@ class Rack(Row):
     def at(self, system: Geared, q: Array) -> Array:
         gap = system.place(q, self.a, self.pa) - system.place(q, self.b, self.through)
         along = self._line(system, q)
-        return np.asarray(
-            (along * gap).sum(-1) + self.lever * (system.turned(q, self.a) - system.turned(q, self.b))
-        )
+        return np.asarray((along * gap).sum(-1) + self.lever * (system.turned(q, self.a) - system.turned(q, self.b)))
 
     def _line(self, system: Geared, q: Array) -> Array:
         return system.arm(q, self.b, (cos(self.direction), sin(self.direction)))
@@ -134,11 +132,7 @@ class Geared(Multibody):
     """The reference with rows of wheels, racks and cams behind those of the joints and drivers."""
 
     def __init__(
-        self,
-        bodies: Sequence[Body],
-        constraints: Sequence[Constraint],
-        rolling: Sequence[Row],
-        drivers: int = 1,
+        self, bodies: Sequence[Body], constraints: Sequence[Constraint], rolling: Sequence[Row], drivers: int = 1
     ) -> None:
         self.rolling = list(rolling)
         super().__init__(bodies, constraints, drivers)
@@ -216,9 +210,7 @@ def pressed_forces(motion: Motion, loads: Sequence[Load]) -> tuple[Forces, dict[
     return motion.forces([*loads, *(lambda _, own=own: own for own in beside.values())]), beside  # type: ignore[misc]
 
 
-def gear(
-    name: str, a: str, pa: Vec, b: str, pb: Vec, d: float, ratio: float, alpha: float, value: float
-) -> Wheels:
+def gear(name: str, a: str, pa: Vec, b: str, pb: Vec, d: float, ratio: float, alpha: float, value: float) -> Wheels:
     """A pair with the centre distance d and the ratio of b's speed to a's, negative for an external one."""
     part = d / (ratio - 1)
     sense = 1.0 if ratio < 0 else -1.0
@@ -226,16 +218,7 @@ def gear(
 
 
 def belt(
-    name: str,
-    a: str,
-    pa: Vec,
-    b: str,
-    pb: Vec,
-    d: float,
-    radii: Vec,
-    crossed: bool,
-    value: float,
-    pull: float = 0.0,
+    name: str, a: str, pa: Vec, b: str, pb: Vec, d: float, radii: Vec, crossed: bool, value: float, pull: float = 0.0
 ) -> Wheels:
     """Pulleys with an open or crossed belt whose strands have a tension ``pull``, or whose slack one has none."""
     kb = radii[1] if crossed else -radii[1]

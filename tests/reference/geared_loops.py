@@ -121,22 +121,12 @@ def _cam(d: GearedDraft, pin: str, carrier: str, cam: str) -> str:
 
 
 def _guided(
-    d: GearedDraft,
-    pin: str,
-    carrier: str,
-    cam: str,
-    touch: str,
-    psi: float,
-    rise: int,
-    sense: float,
-    phase: float,
+    d: GearedDraft, pin: str, carrier: str, cam: str, touch: str, psi: float, rise: int, sense: float, phase: float
 ) -> str:
     centre, way = d.points[carrier][pin], float(d.rng.uniform(-pi, pi))
     lift = Lift(float(d.rng.uniform(0.02, 0.08)), rise * pi / 180)
     radius, aside = float(d.rng.uniform(0.15, 0.35)), float(d.rng.uniform(-0.1, 0.1))
-    height = (radius if touch == "flat" else sqrt(radius**2 - aside**2)) + float(
-        lift.curves(np.array(psi))[0]
-    )
+    height = (radius if touch == "flat" else sqrt(radius**2 - aside**2)) + float(lift.curves(np.array(psi))[0])
     u, n = (cos(way), sin(way)), (-sin(way), cos(way))
     at = (centre[0] + height * u[0] + aside * n[0], centre[1] + height * u[1] + aside * n[1])
     new = d.link(at)
@@ -146,23 +136,25 @@ def _guided(
     d.guide(f"s{len(d.rolling)}", carrier, through, way, new, p, -off)
     lean = way - d.poses[carrier][2]
     row = GuidedCam(
-        f"g{len(d.rolling)}", new, d.local(new, at), cam, 0.0, carrier, lift, phase, sense, touch == "flat",
-        (cos(lean), sin(lean)), d.local(carrier, centre),
-    )  # fmt: skip
+        f"g{len(d.rolling)}",
+        new,
+        d.local(new, at),
+        cam,
+        0.0,
+        carrier,
+        lift,
+        phase,
+        sense,
+        touch == "flat",
+        (cos(lean), sin(lean)),
+        d.local(carrier, centre),
+    )
     put_cam(d, row, p, touch, radius, f"{lift.height!r} m", "")
     return new
 
 
 def _swinging(
-    d: GearedDraft,
-    pin: str,
-    carrier: str,
-    cam: str,
-    touch: str,
-    psi: float,
-    rise: int,
-    sense: float,
-    phase: float,
+    d: GearedDraft, pin: str, carrier: str, cam: str, touch: str, psi: float, rise: int, sense: float, phase: float
 ) -> str:
     centre = d.points[carrier][pin]
     pivot, side = d.near(centre, 0.4, 0.7), 1.0 if d.rng.random() < 0.5 else -1.0
@@ -177,9 +169,19 @@ def _swinging(
     d.pin(carrier, new, pivot)
     p = d.mark(new, at)
     row = SwingingCam(
-        f"g{len(d.rolling)}", new, d.local(new, at), cam, 0.0, carrier, lift, phase, sense, touch == "flat",
-        d.local(new, pivot), side,
-    )  # fmt: skip
+        f"g{len(d.rolling)}",
+        new,
+        d.local(new, at),
+        cam,
+        0.0,
+        carrier,
+        lift,
+        phase,
+        sense,
+        touch == "flat",
+        d.local(new, pivot),
+        side,
+    )
     put_cam(d, row, p, touch, radius, f"{lift.height!r} rad", f", side: {'left' if side > 0 else 'right'}")
     return new
 
@@ -209,9 +211,7 @@ def reordered(text: str, rng: np.random.Generator) -> str:
         if section in lines:
             begin = lines.index(section) + 1
             end = next(k for k in range(begin, len(lines)) if not lines[k].startswith("  "))
-            lines[begin:end] = [
-                _with_points_shuffled(lines[k], rng) for k in begin + rng.permutation(end - begin)
-            ]
+            lines[begin:end] = [_with_points_shuffled(lines[k], rng) for k in begin + rng.permutation(end - begin)]
     return "\n".join(lines) + "\n"
 
 

@@ -11,18 +11,7 @@ from math import cos, hypot, pi, remainder, sin
 import numpy as np
 from tests.reference.formulas import gravity
 from tests.reference.geared import Geared, Rack, Row, belt, gear
-from tests.reference.multibody import (
-    FRAME,
-    Array,
-    Body,
-    Constraint,
-    Motion,
-    Vec,
-    Wrench,
-    prismatic,
-    revolute,
-    turn,
-)
+from tests.reference.multibody import FRAME, Array, Body, Constraint, Motion, Vec, Wrench, prismatic, revolute, turn
 
 PIECES = ("gear", "gear", "belt", "rack", "dyad", "loop")
 SPEED = 3.0
@@ -74,10 +63,7 @@ class GearedDraft:
     ) -> None:
         """A guide of one link in a direction, and a point of another that slides along it."""
         lean, own = (remainder(direction - self.poses[link][2], 2 * pi) for link in (guide, block))
-        ends = (
-            (guide, self.local(guide, through), lean),
-            (block, self.local(block, self.points[block][at]), own),
-        )
+        ends = ((guide, self.local(guide, through), lean), (block, self.local(block, self.points[block][at]), own))
         self.constraints += prismatic(name, *ends, offset)
         self.joints.append(
             f"  {name}: {{kind: prismatic, guide: {guide}, through: {self.mark(guide, through)}, "
@@ -147,12 +133,7 @@ def _add_gear(d: GearedDraft) -> None:
 
 
 def add_mesh(
-    d: GearedDraft,
-    carrier: str,
-    wheels: tuple[str, str],
-    at: tuple[Vec, Vec],
-    ratio: float,
-    kind: str = "gear",
+    d: GearedDraft, carrier: str, wheels: tuple[str, str], at: tuple[Vec, Vec], ratio: float, kind: str = "gear"
 ) -> None:
     """Two gears, or wheels that roll on each other."""
     name, (a, b), (p, q) = f"g{len(d.rolling)}", wheels, at
@@ -160,9 +141,7 @@ def add_mesh(
     teeth = f", pressure_angle: {alpha!r} rad" if kind == "gear" else ""
     row = gear(name, a, d.local(a, p), b, d.local(b, q), hypot(q[0] - p[0], q[1] - p[1]), ratio, alpha, 0.0)
     d.rolling.append(row)
-    d.joints.append(
-        f"  {name}: {{kind: {kind}, links: [{a}, {b}], ratio: {ratio!r}, carrier: {carrier}{teeth}}}"
-    )
+    d.joints.append(f"  {name}: {{kind: {kind}, links: [{a}, {b}], ratio: {ratio!r}, carrier: {carrier}{teeth}}}")
 
 
 def _add_belt(d: GearedDraft) -> None:

@@ -102,9 +102,7 @@ def _law(d: Draft, law: DriverLaw, duration: float, parameters: dict[str, str]) 
     draw = d.rng.random()
     if draw < 0.2:
         speed = float(round(d.rng.choice([-1, 1]) * d.rng.uniform(0.2, 1.5) * amplitude / duration, 4))
-        return _constant(
-            DriverLaw(law.name, law.kind, law.joint, law.link, law.relative_to, law.start, speed)
-        )
+        return _constant(DriverLaw(law.name, law.kind, law.joint, law.link, law.relative_to, law.start, speed))
     if draw < 0.6:
         return _oscillation(d, law, unit, amplitude, duration, parameters)
     if draw < 0.75:

@@ -248,10 +248,7 @@ def _add_cam(d: GearedDraft, seat: Seat) -> None:
     name, carrier, cam = seat
     centre = d.points[carrier][name]
     pivot = d.near(centre, 0.6, 0.8)
-    far, line = (
-        hypot(centre[0] - pivot[0], centre[1] - pivot[1]),
-        atan2(centre[1] - pivot[1], centre[0] - pivot[0]),
-    )
+    far, line = (hypot(centre[0] - pivot[0], centre[1] - pivot[1]), atan2(centre[1] - pivot[1], centre[0] - pivot[0]))
     lift, begin, arm, reach = Lift(0.25, 2 * pi / 3), 1.0, 0.7 * far, 0.6 * far
     side, sense = (float(d.rng.choice([-1.0, 1.0])) for _ in range(2))
     start = acos((far**2 + arm**2 - reach**2) / (2 * far * arm))
@@ -262,9 +259,19 @@ def _add_cam(d: GearedDraft, seat: Seat) -> None:
     at = d.mark(follower, tip)
     phase = d.poses[cam][2] - d.poses[carrier][2] - sense * begin
     row = SwingingCam(
-        f"g{len(d.rolling)}", follower, d.local(follower, tip), cam, 0.0, carrier, lift, phase, sense, False,
-        d.local(follower, pivot), side,
-    )  # fmt: skip
+        f"g{len(d.rolling)}",
+        follower,
+        d.local(follower, tip),
+        cam,
+        0.0,
+        carrier,
+        lift,
+        phase,
+        sense,
+        False,
+        d.local(follower, pivot),
+        side,
+    )
     put_cam(d, row, at, "roller", reach, f"{lift.height!r} rad", f", side: {'left' if side > 0 else 'right'}")
     d.kinds.append(at)
 

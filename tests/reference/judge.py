@@ -123,9 +123,7 @@ def _counted(outcomes: Iterable[Any]) -> dict[str, int]:
 
 
 # the branch ----------------------------------------------------------------------------------------------
-def _expected(
-    mechanism: Any, system: Multibody, time: Array, care: float, first: Array | None = None
-) -> Expected:
+def _expected(mechanism: Any, system: Multibody, time: Array, care: float, first: Array | None = None) -> Expected:
     """The branch through the drawing, or through the poses `first` of the first position, at all times."""
     poses = np.full((len(time), system.count, 3), np.nan)
     begin, end = float(time[0]), float(time[-1])
@@ -242,9 +240,7 @@ def _along(
     )
     begin = float(times[0])
     for end in [*inside, float(times[-1])]:
-        asked = [
-            float(t) for t in times if way * begin <= way * t <= way * end and (t != begin or not found.q)
-        ]
+        asked = [float(t) for t in times if way * begin <= way * t <= way * end and (t != begin or not found.q)]
         goals = asked if asked and asked[-1] == end else [*asked, end]
         part = Follower(system, _within(law, begin, end, whole), care).follow(q, begin, goals, whole)
         found = Branch(found.q + part.q[: len(asked)], part.end, part.nearness, found.steps + part.steps)
@@ -328,9 +324,7 @@ def _compare_motion(
         verdict.kind = "other branch"
         k = int(np.flatnonzero(where)[np.argmax(far)])
         signs = len(set(np.linalg.slogdet(_jacobian(reference.system, poses[where]))[0]))
-        verdict.lines.append(
-            f"{far.sum()} of {where.sum()} on another branch, first {k} (signs seen: {signs})"
-        )
+        verdict.lines.append(f"{far.sum()} of {where.sum()} on another branch, first {k} (signs seen: {signs})")
         return
     with np.errstate(invalid="ignore"):
         found = motion_comparison(mechanism, motion, reference)
@@ -437,9 +431,7 @@ def _damping_scales(mechanism: Any, reference: Motion, size: float) -> list[Arra
     return [a.damping * speed / arms[a.kind] for a in mechanism.loads.values() if a.kind in arms]
 
 
-def _judge_checks(
-    mechanism: Any, forces: Any, reference: Motion, where: Any, size: float, verdict: Verdict
-) -> None:
+def _judge_checks(mechanism: Any, forces: Any, reference: Motion, where: Any, size: float, verdict: Verdict) -> None:
     """The package's own checks: beside its own forces and speeds nothing is left but rounding, however near a
     position is to a singular one."""
     own = _own_forces(mechanism, forces, size)[where]

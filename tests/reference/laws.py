@@ -18,9 +18,20 @@ from scipy.interpolate import CubicSpline, PPoly
 from tests.reference.multibody import Array
 
 UNITS = {
-    "deg": math.pi / 180, "°": math.pi / 180, "rad": 1.0, "m": 1.0, "mm": 1e-3, "cm": 1e-2, "s": 1.0,
-    "ms": 1e-3, "min": 60.0, "rpm": math.pi / 30, "Hz": 1.0, "N": 1.0, "kN": 1e3,
-}  # fmt: skip
+    "deg": math.pi / 180,
+    "°": math.pi / 180,
+    "rad": 1.0,
+    "m": 1.0,
+    "mm": 1e-3,
+    "cm": 1e-2,
+    "s": 1.0,
+    "ms": 1e-3,
+    "min": 60.0,
+    "rpm": math.pi / 30,
+    "Hz": 1.0,
+    "N": 1.0,
+    "kN": 1e3,
+}
 
 
 @dataclass(frozen=True)
@@ -38,9 +49,7 @@ class Taylor:
         return Taylor(-self.f, -self.d, -self.dd)
 
     def __mul__(self, o: Taylor) -> Taylor:
-        return Taylor(
-            self.f * o.f, self.d * o.f + self.f * o.d, self.dd * o.f + 2 * self.d * o.d + self.f * o.dd
-        )
+        return Taylor(self.f * o.f, self.d * o.f + self.f * o.d, self.dd * o.f + 2 * self.d * o.d + self.f * o.dd)
 
     def through(self, f: Array, first: Array, second: Array) -> Taylor:
         return Taylor(f, first * self.d, second * self.d**2 + first * self.dd)

@@ -230,10 +230,7 @@ class _Draft:
             low = self.number(-180, 180)
             return "input", {"input": [f"{low} deg", f"{low + self.number(20, 300)} deg"]}
         if draw < 0.55:
-            return "moving", {
-                "moving": self._output(),
-                "direction": self.pick(["increasing", "decreasing"]),
-            }
+            return "moving", {"moving": self._output(), "direction": self.pick(["increasing", "decreasing"])}
         ends = self.pick([("max", "min"), ("min", "max")])
         phase: dict[str, Any] = {"of": self._output(), "from": ends[0], "to": ends[1]}
         if draw < 0.75:

@@ -85,10 +85,7 @@ def prismatic(
 ) -> list[Constraint]:
     """guide = (body, point, direction), block = (body, point, direction of the guide in the block's axes)."""
     (g, through, direction), (b, at, block_angle) = guide, block
-    return [
-        Angle(name, g, b, direction - block_angle),
-        Line(name, g, through, direction + pi / 2, b, at, offset),
-    ]
+    return [Angle(name, g, b, direction - block_angle), Line(name, g, through, direction + pi / 2, b, at, offset)]
 
 
 def weld(name: str, a: tuple[str, Vec], b: tuple[str, Vec], angle: float) -> list[Constraint]:

@@ -7,17 +7,7 @@ from itertools import combinations
 from typing import Any
 
 import numpy as np
-from tests.reference.multibody import (
-    FRAME,
-    Angle,
-    Array,
-    Coincide,
-    Constraint,
-    Multibody,
-    Unreachable,
-    Vec,
-    revolute,
-)
+from tests.reference.multibody import FRAME, Angle, Array, Coincide, Constraint, Multibody, Unreachable, Vec, revolute
 
 Pose = tuple[float, float, float]
 
@@ -86,9 +76,7 @@ def moved(pose: Pose, local: Vec) -> Vec:
     return float(x + c * local[0] - s * local[1]), float(y + s * local[0] + c * local[1])
 
 
-def _place(
-    mechanism: Any, part: Multibody, u: Array, poses: dict[str, Pose], rng: np.random.Generator
-) -> None:
+def _place(mechanism: Any, part: Multibody, u: Array, poses: dict[str, Pose], rng: np.random.Generator) -> None:
     names = [body.name for body in part.bodies]
     size = max(np.abs(v).max() for v in (part.pin_pa, part.pin_pb, part.line_t, part.line_p) if v.size)
     for _ in range(300):
@@ -98,13 +86,9 @@ def _place(
             q = part.assemble(guess, u)
         except Unreachable:
             continue
-        found = {
-            name: (float(x), float(y), float(phi)) for name, (x, y, phi) in zip(names, q[1:], strict=True)
-        }
+        found = {name: (float(x), float(y), float(phi)) for name, (x, y, phi) in zip(names, q[1:], strict=True)}
         if fulfils_words(mechanism, {**poses, **found}, names):
-            poses.update(
-                (k, (x, y, float(np.arctan2(np.sin(p), np.cos(p))))) for k, (x, y, p) in found.items()
-            )
+            poses.update((k, (x, y, float(np.arctan2(np.sin(p), np.cos(p))))) for k, (x, y, p) in found.items())
             return
     raise Unreachable(f"no assembly of {names} found that fulfils the words")
 

@@ -9,9 +9,7 @@ from tests.reference.multibody import Array
 
 KNOWN = {"revolute", "prismatic", "weld"}
 #: Those with wheels are in test_geared_mechanisms, cams in test_cam_joints.
-GALLERY = [
-    name for name in store.names() if {each.kind for each in store.machine(name).joints.values()} <= KNOWN
-]
+GALLERY = [name for name in store.names() if {each.kind for each in store.machine(name).joints.values()} <= KNOWN]
 BATCH = 25
 #: The first batch is met every day.
 BATCHES = [pytest.param(k, marks=pytest.mark.rotating if k else ()) for k in range(100 // BATCH)]

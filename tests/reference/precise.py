@@ -122,9 +122,7 @@ class _Rows:
             quadratic[rows[0]] -= sign * w * w * rx
             quadratic[rows[1]] -= sign * w * w * ry
 
-    def _line(
-        self, c: Any, row: int, pose: Any, rate: Any, jac: Number, value: Number, quadratic: Number
-    ) -> None:
+    def _line(self, c: Any, row: int, pose: Any, rate: Any, jac: Number, value: Number, quadratic: Number) -> None:
         (xa, ya, fa), (xb, yb, fb) = pose[c.a], pose[c.b]
         wx, wy = mpmath.cos(fa + c.direction), mpmath.sin(fa + c.direction)
         (tx, ty), (px, py) = _turned(fa, c.through), _turned(fb, c.at)

@@ -64,9 +64,7 @@ def _two_links(d: Draft, links: dict[str, PlacedLink]) -> str:
 
 def _torsion_spring(d: Draft, links: dict[str, PlacedLink], order: list[str]) -> str:
     stiffness, preload = _rounded(d, 1, 50), _rounded(d, -20, 20)
-    numbers = (
-        f"stiffness: {stiffness} N·m/rad, free_angle: {_rounded(d, -170, 170)} deg, preload: {preload} N·m"
-    )
+    numbers = f"stiffness: {stiffness} N·m/rad, free_angle: {_rounded(d, -170, 170)} deg, preload: {preload} N·m"
     return f"{{kind: torsion_spring, {_two_links(d, links)}, {numbers}}}"
 
 

@@ -7,14 +7,7 @@ from math import degrees
 
 from tests.reference.draft import Draft, Slide
 from tests.reference.multibody import FRAME, Vec
-from tests.reference.random_mechanisms import (
-    DriverLaw,
-    PlacedLink,
-    RandomCase,
-    local_direction,
-    offset,
-    world,
-)
+from tests.reference.random_mechanisms import DriverLaw, PlacedLink, RandomCase, local_direction, offset, world
 
 
 def file_text(
@@ -28,9 +21,7 @@ def file_text(
     """The file; `drivers` are the laws (default: the case's constant speeds), `cycle` its line (None: none)."""
     words = _assembly_words(d, case) if d.by_words else {}
     lines = ["format: 1", f"name: Random mechanism {case.seed}"]
-    lines += (
-        [f"parameters: {{{', '.join(f'{k}: {v}' for k, v in parameters.items())}}}"] if parameters else []
-    )
+    lines += [f"parameters: {{{', '.join(f'{k}: {v}' for k, v in parameters.items())}}}"] if parameters else []
     lines += ["frame:"]
     lines += [f"  points: {_points(case.links[FRAME].points, list(case.links[FRAME].points))}", "links:"]
     lines += [f"  {link.name}: {_link(link)}" for link in case.links.values() if link.name != FRAME]

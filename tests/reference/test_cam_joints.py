@@ -185,14 +185,21 @@ def test_a_cam_that_cannot_be_is_refused(old: str, new: str, said: tuple[str, st
 
 @pytest.mark.parametrize(
     ("touch", "radius", "reached"),
-    [("knife", 29.9, False), ("knife", 30.1, True), ("knife", 289.9, True), ("knife", 290.1, False),
-     ("roller", 19.9, False), ("roller", 20.1, True), ("roller", 279.9, True), ("roller", 280.1, False),
-     ("flat", 159.9, True), ("flat", 160.1, False)],
-)  # fmt: skip
+    [
+        ("knife", 29.9, False),
+        ("knife", 30.1, True),
+        ("knife", 289.9, True),
+        ("knife", 290.1, False),
+        ("roller", 19.9, False),
+        ("roller", 20.1, True),
+        ("roller", 279.9, True),
+        ("roller", 280.1, False),
+        ("flat", 159.9, True),
+        ("flat", 160.1, False),
+    ],
+)
 @pytest.mark.parametrize("side", ["left", "right"])
-def test_an_arm_reaches_base_circles_of_some_radii(
-    touch: str, radius: float, reached: bool, side: str
-) -> None:
+def test_an_arm_reaches_base_circles_of_some_radii(touch: str, radius: float, reached: bool, side: str) -> None:
     """160 mm from pivot to cam and an arm of 130 mm: an edge or a roller's centre (10 mm) comes as near as 30 mm and
     as far as 290 mm; a flat face through the pivot touches circles up to the pivot."""
     text = model(SWINGING, "counterclockwise", touch, "1 deg", SIDE=side, MOMENT="3 N·m")

@@ -83,9 +83,7 @@ def test_friction_of_moving_joints(pin: float, slot: float, speed: float) -> Non
     assert forces.input_torque == pytest.approx(found.effort("driver driver"), rel=1e-9, abs=1e-8)
     for name, joint in mechanism.joints.items():
         for link in joint.joined:
-            assert forces.reaction(name, on=link) == pytest.approx(
-                found.on(name, link)[0], rel=1e-8, abs=1e-7
-            )
+            assert forces.reaction(name, on=link) == pytest.approx(found.on(name, link)[0], rel=1e-8, abs=1e-7)
     assert forces.balance_residual.max() < 1e-7 and np.abs(forces.power_residual).max() < 1e-7
     lost = (found.effort("driver driver") - smooth) * speed
     assert lost.mean() > 1.0

@@ -93,9 +93,7 @@ FIVE_BAR_LINKS = (
 @pytest.mark.parametrize(
     "links", list(permutations(FIVE_BAR_LINKS)), ids=lambda links: "-".join(x[2:7] for x in links)
 )
-def test_a_five_bar_geared_on_its_coupler_is_one_machine_in_all_orders_of_its_links(
-    links: tuple[str, ...],
-) -> None:
+def test_a_five_bar_geared_on_its_coupler_is_one_machine_in_all_orders_of_its_links(links: tuple[str, ...]) -> None:
     """Its coupler carries the wheels of the crank and of the other coupler. The numbers are those of multipliers of
     all bodies together, found without the package."""
     text = FIVE_BAR.replace("LINKS", "\n".join(links))
@@ -113,8 +111,16 @@ def test_a_loop_that_ends_beside_wheels_without_loops_is_named() -> None:
         lw.solve_motion(lw.loads(geared_case(1000534).text), times=TIMES)
 
 
-WHEELS = ("external_gear_pair", "internal_gear_pair", "gear_differential", "geared_fivebar", "geared_fivebar_third",
-          "geared_fivebar_double", "chain_drive", "planetary_two_inputs")  # fmt: skip
+WHEELS = (
+    "external_gear_pair",
+    "internal_gear_pair",
+    "gear_differential",
+    "geared_fivebar",
+    "geared_fivebar_third",
+    "geared_fivebar_double",
+    "chain_drive",
+    "planetary_two_inputs",
+)
 
 
 @pytest.mark.rotating
@@ -168,8 +174,6 @@ def test_the_rows_of_the_reference_have_exact_derivatives() -> None:
             return np.array([c.at(system, q + t * qd) for c in system.rolling])
 
         slope = (along(h) - along(-h)) / (2 * h)
-        assert slope == pytest.approx(
-            system.jacobian(q)[rows] @ qd.ravel(), abs=1e-7 * (1 + np.abs(qd).max())
-        )
+        assert slope == pytest.approx(system.jacobian(q)[rows] @ qd.ravel(), abs=1e-7 * (1 + np.abs(qd).max()))
         bend = (along(h) - 2 * along(0.0) + along(-h)) / h**2
         assert bend == pytest.approx(system.quadratic(q, qd)[rows], abs=3e-5 * (1 + np.abs(qd).max() ** 2))

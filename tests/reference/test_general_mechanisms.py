@@ -74,18 +74,12 @@ def test_everything_comes_up() -> None:
     assert min(laws[name] for name in ("ConstantSpeed", "ExpressionLaw", "TableLaw")) >= 50
     inner = [d for m in models for d in m.drivers.values() if "frame" not in (d.link, d.relative_to)]
     assert {m.joints[d.joint].kind for m in models for d in m.drivers.values() if d in inner} == {
-        "revolute", "prismatic",
-    }  # fmt: skip
+        "revolute",
+        "prismatic",
+    }
     loads = {load.kind for m in models for load in m.loads.values()}
     assert loads == {"force", "torque", "spring", "damper", "torsion_spring", "torsion_damper", "pressure"}
-    for words in (
-        "interpolation: linear",
-        "interpolation: periodic",
-        "swingd0",
-        "kind: weld",
-        "moving:",
-        "input:",
-    ):
+    for words in ("interpolation: linear", "interpolation: periodic", "swingd0", "kind: weld", "moving:", "input:"):
         assert sum(words in text for text in texts) >= 3, words
     sizes = Counter(len(group.links) for m in models for group in lw.structure(m).groups)
     assert sizes[4] >= 20 and sum(n for size, n in sizes.items() if size > 4) >= 10

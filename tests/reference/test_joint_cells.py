@@ -12,9 +12,7 @@ import linkwright as lw
 
 def test_every_kind_of_joint_has_its_row() -> None:
     offered = lw.json_schema()["properties"]["joints"]["additionalProperties"]["oneOf"]
-    assert {kind for each in offered for kind in each["properties"]["kind"]["enum"]} == set(
-        joint_cells.JOINTS
-    )
+    assert {kind for each in offered for kind in each["properties"]["kind"]["enum"]} == set(joint_cells.JOINTS)
 
 
 @pytest.mark.rotating

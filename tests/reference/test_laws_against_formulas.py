@@ -29,9 +29,7 @@ def lever(law: str) -> lw.Mechanism:
 def test_a_periodic_table_that_goes_on_by_whole_turns() -> None:
     """Each period adds one turn; within it the rest is a periodic spline through the rows without the drift."""
     times, degrees = np.array([0, 0.5, 1.1, 1.6, 2.0]), np.array([30.0, 95, 230, 300, 390])
-    rows = (
-        f"time: [{', '.join(f'{t} s' for t in times)}], position: [{', '.join(f'{d} deg' for d in degrees)}]"
-    )
+    rows = f"time: [{', '.join(f'{t} s' for t in times)}], position: [{', '.join(f'{d} deg' for d in degrees)}]"
     mechanism = lever(f"table: {{{rows}, interpolation: periodic}}")
     at = np.array([-0.7, 0.0, 0.3, 1.3, 2.3, 4.3, 5.9])
     motion = lw.solve_motion(mechanism, times=at)
@@ -61,9 +59,7 @@ def test_parameters_in_a_law_follow_their_changes(changes: dict[str, float]) -> 
     motion = lw.solve_motion(mechanism, steps=10)
     w = 2 * np.pi / pace
     assert motion.input == pytest.approx(way * np.sin(w * motion.time) + np.radians(20), rel=1e-12)
-    assert motion.link("lever").angular_velocity == pytest.approx(
-        way * w * np.cos(w * motion.time), abs=1e-12
-    )
+    assert motion.link("lever").angular_velocity == pytest.approx(way * w * np.cos(w * motion.time), abs=1e-12)
     e = -way * w * w * np.sin(w * motion.time)
     assert motion.link("lever").angular_acceleration == pytest.approx(e, abs=1e-12)
     assert lw.solve_forces(motion).input_torque == pytest.approx((0.3 + 2 * 0.25**2) * e, abs=1e-12)
@@ -113,10 +109,18 @@ drawing: {A: [0.4 m, 0 m], B: [0.66 m, 0.15 m], C: [1 m, 0.7 m]}
 driver: {turn: arm, about: O, speed: 2 rad/s}
 """
     changes = {
-        "arm.lengths.0": 0.5, "arm.lengths.1": 0.25, "arm.angle": 0.7, "arm.mass": 4.0, "bar.length": 1.1,
-        "bar.D.y": 0.2, "bar.mass_centre.x": 0.4, "lever.C.x": 0.15, "lever.mass": 6.0, "driver.speed": -3.0,
+        "arm.lengths.0": 0.5,
+        "arm.lengths.1": 0.25,
+        "arm.angle": 0.7,
+        "arm.mass": 4.0,
+        "bar.length": 1.1,
+        "bar.D.y": 0.2,
+        "bar.mass_centre.x": 0.4,
+        "lever.C.x": 0.15,
+        "lever.mass": 6.0,
+        "driver.speed": -3.0,
         "frame.Q.x": 1.2,
-    }  # fmt: skip
+    }
     changed = lw.loads(text).with_dimensions(changes)
     again = lw.loads(dump(changed))
     for address, value in changes.items():
@@ -124,9 +128,7 @@ driver: {turn: arm, about: O, speed: 2 rad/s}
     untouched = lw.loads(text).dimensions().keys() - changes.keys()
     assert len(untouched) > 5
     for address in untouched:
-        assert again.dimension(address) == pytest.approx(lw.loads(text).dimension(address), rel=1e-14), (
-            address
-        )
+        assert again.dimension(address) == pytest.approx(lw.loads(text).dimension(address), rel=1e-14), address
     assert again.links["arm"].geometry == "bent" and again.links["bar"].geometry == "length"
 
 
@@ -135,9 +137,7 @@ def test_a_pin_with_friction_has_its_dimensions() -> None:
         "driver:", "joints: {O: {kind: revolute, pin_radius: 20 mm, friction: 0.2}}\ndriver:"
     )
     mechanism = lw.loads(text)
-    assert mechanism.dimension("O.friction") == 0.2 and mechanism.dimension("O.pin_radius") == pytest.approx(
-        0.02
-    )
+    assert mechanism.dimension("O.friction") == 0.2 and mechanism.dimension("O.pin_radius") == pytest.approx(0.02)
     changed = mechanism.with_dimensions({"O.friction": 0.3, "O.pin_radius": 0.01}).joints["O"]
     assert (changed.friction, changed.pin_radius) == (0.3, 0.01)
     assert "O.friction" not in lw.loads(text.replace(", friction: 0.2", "")).dimensions()

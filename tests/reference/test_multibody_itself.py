@@ -195,9 +195,7 @@ def test_redundant_constraints_are_marked_and_a_free_mechanism_is_refused() -> N
     joints = [c for k in cranks for c in revolute(f"O{k}", [(FRAME, (at[k], 0)), (k, (0, 0))])]
     joints += [c for k in cranks for c in revolute(f"A{k}", [(k, (0.4, 0)), ("bar", (at[k], 0))])]
     bodies = [Body(k) for k in cranks] + [Body("bar", 4.0, 0.1, (1.0, 0.0))]
-    start = np.array(
-        [(0, 0, 0), (0, 0, 0.5), (1.0, 0, 0.5), (2.5, 0, 0.5), (0.4 * cos(0.5), 0.4 * sin(0.5), 0)]
-    )
+    start = np.array([(0, 0, 0), (0, 0, 0.5), (1.0, 0, 0.5), (2.5, 0, 0.5), (0.4 * cos(0.5), 0.4 * sin(0.5), 0)])
     angles = np.linspace(0.5, 2.5, 9)
     driven = Multibody(bodies, [*joints, *turn("driver", FRAME, "one", 0)])
     motion = driven.motion(start, angles[:1], *rates(0.5, 3.0, angles))

@@ -108,7 +108,5 @@ def test_four_bar_first_row() -> None:
     forces = motion.forces([gravity((0.0, -9.81))])
     reaction = forces.on("O5", "jaw")[0][0]
     assert np.hypot(*reaction) == pytest.approx(10261.396, abs=5.1e-4)
-    assert reaction / np.hypot(*reaction) == pytest.approx(
-        (cos(radians(102.685)), sin(radians(102.685))), abs=1e-5
-    )
+    assert reaction / np.hypot(*reaction) == pytest.approx((cos(radians(102.685)), sin(radians(102.685))), abs=1e-5)
     assert forces.effort("driver")[0] == pytest.approx(47.546, abs=5.1e-4)

@@ -35,8 +35,12 @@ def test_every_kind_of_group_and_driver_comes_up() -> None:
     assert any("assembly:" in case.text for case in cases)
     assert max(len(case.links) - 1 for case in cases) == 10
     assert {link.geometry for case in cases for link in case.links.values()} == {
-        "point", "length", "bent", "coordinates", "drawing",
-    }  # fmt: skip
+        "point",
+        "length",
+        "bent",
+        "coordinates",
+        "drawing",
+    }
 
 
 @pytest.mark.parametrize("seed", range(8))

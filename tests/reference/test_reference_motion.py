@@ -41,9 +41,7 @@ def random_failures(seed: int) -> list[str]:
         return [f"refused: {error}"]
     for law in case.laws:
         driver = next(iter(mechanism.drivers)) if len(case.laws) == 1 else law.name
-        if not np.allclose(
-            motion.inputs[driver], law.start + law.speed * motion.time, rtol=1e-12, atol=1e-12
-        ):
+        if not np.allclose(motion.inputs[driver], law.start + law.speed * motion.time, rtol=1e-12, atol=1e-12):
             return [f"input {driver} does not follow its law"]
     if abs(motion.time[0] - case.span[0]) > 1e-9 or abs(motion.time[-1] - case.span[1]) > 1e-9:
         return [f"times {motion.time[0]} to {motion.time[-1]}, expected {case.span}"]

@@ -28,9 +28,7 @@ from tests.state import comparing
 def main(given: Sequence[str] | None = None) -> int:
     """Reads the options."""
     parser = argparse.ArgumentParser(
-        prog="python -m tests.state",
-        description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        prog="python -m tests.state", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     dump = commands.add_parser("dump", help="write the state of the product into a file")

@@ -58,11 +58,7 @@ LOOSER: tuple[tuple[str, float, str], ...] = (
         math.inf,
         "its mean torque is zero but for rounding, whose sign says whether there is a motor",
     ),
-    (
-        r"^(metrics|random)/.*/at$",
-        1e4,
-        "the place of a flat extreme is known to the root of what its value is",
-    ),
+    (r"^(metrics|random)/.*/at$", 1e4, "the place of a flat extreme is known to the root of what its value is"),
 )
 
 Key = tuple[str, str, str]
@@ -113,9 +109,7 @@ def _rows(entries: Sequence[list[Any]]) -> Iterator[tuple[Key, Row]]:
             yield (part, subject, each[0]), Row(part, subject, *each)
 
 
-def compared(
-    first: Mapping[Key, Row], second: Mapping[Key, Row], tolerance: float = TOLERANCE
-) -> dict[str, Summary]:
+def compared(first: Mapping[Key, Row], second: Mapping[Key, Row], tolerance: float = TOLERANCE) -> dict[str, Summary]:
     """A summary of every part, with what differs in the order of the rows."""
     scales = scales_of(first, second)
     found: dict[str, Summary] = defaultdict(Summary)
@@ -224,10 +218,7 @@ def apart(x: float, y: float, scale: float) -> float:
 def frame(value: Any) -> Any:
     """A value with its numbers left out: what must be equal."""
     if isinstance(value, dict):
-        return {
-            name: each if name in ("every", "size", "missing") else frame(each)
-            for name, each in value.items()
-        }
+        return {name: each if name in ("every", "size", "missing") else frame(each) for name, each in value.items()}
     if isinstance(value, list):
         return [frame(each) for each in value]
     return "number" if isinstance(value, int | float) and not isinstance(value, bool) else value

@@ -70,13 +70,7 @@ WORKS: Mapping[str, Callable[[lw.Mechanism], object]] = {
 }
 #: What ``lw.metrics`` gives of the machine.
 METRICS = (
-    *(
-        "crank_angle_between_limits",
-        "quick_return_ratio",
-        "swing_angle",
-        "peak_acceleration",
-        "pressure_angle",
-    ),
+    *("crank_angle_between_limits", "quick_return_ratio", "swing_angle", "peak_acceleration", "pressure_angle"),
     *("transmission_angle", "transmission_angle_of_stroke", "energy_fluctuation", "flywheel", "mean_power"),
     *("peak_input_torque", "peak_power", "rms_input_torque", "mechanical_advantage", "velocity_ratio"),
     *("peak_reaction", "rms_reaction", "peak_shaking_force", "peak_shaking_moment", "dead_point", "grashof"),

@@ -45,8 +45,7 @@ def around(machine: Machine, by: Sequence[str]) -> dict[str, np.ndarray]:
     """Five designs around the machine, each dimension changed in its own way."""
     start = {name: machine.mechanism.dimension(name) for name in by}
     return {
-        name: value * (1 + 2e-3 * np.sin(np.arange(5) * (k + 1)))
-        for k, (name, value) in enumerate(start.items())
+        name: value * (1 + 2e-3 * np.sin(np.arange(5) * (k + 1))) for k, (name, value) in enumerate(start.items())
     }
 
 
@@ -141,9 +140,7 @@ def optimize(machine: Machine) -> Entries:
     value = machine.mechanism.dimension(name)
     low, high = sorted((value * 0.95, value * 1.05))
     goal = outputs(machine)["motion"][0]
-    found = lw.optimize(
-        machine.mechanism, vary={name: [low, high]}, minimize=goal, evaluations=60, steps=36, seed=1
-    )
+    found = lw.optimize(machine.mechanism, vary={name: [low, high]}, minimize=goal, evaluations=60, steps=36, seed=1)
     yield from leaves(found.data())
 
 

@@ -22,11 +22,7 @@ import linkwright as lw
 
 FORM = {"state": 1}
 #: Parts of one machine of the gallery.
-OF_MACHINES: Mapping[str, Callable[[machines.Machine], Entries]] = {
-    **machines.PARTS,
-    **designs.PARTS,
-    **tables.PARTS,
-}
+OF_MACHINES: Mapping[str, Callable[[machines.Machine], Entries]] = {**machines.PARTS, **designs.PARTS, **tables.PARTS}
 #: Parts with subjects of their own, each found alone.
 ALONE: Mapping[str, tuple[Callable[[str], Entries], Callable[[], tuple[str, ...]]]] = {
     **kinds.PARTS,
@@ -130,10 +126,5 @@ def progressing(found: Iterable[list[Row]], most: int) -> Iterator[list[Row]]:
         if done % 10 == 0 or done == most or sys.stderr.isatty():
             spent = time.monotonic() - began
             end = "\n" if done == most else ""
-            print(
-                f"\r{done}/{most} subjects, {number} rows, {spent:.0f} s ",
-                end=end,
-                file=sys.stderr,
-                flush=True,
-            )
+            print(f"\r{done}/{most} subjects, {number} rows, {spent:.0f} s ", end=end, file=sys.stderr, flush=True)
         yield each

@@ -49,12 +49,10 @@ GEARS: tuple[tuple[tuple[int, int], float, Mapping[str, object]], ...] = (
     ((8, 9), 0.002, {}),
 )
 OF_GEARS = (
-    "pitch_diameter base_diameter tip_diameter root_diameter "
-    "form_diameter thickness least_profile_shift undercut"
+    "pitch_diameter base_diameter tip_diameter root_diameter form_diameter thickness least_profile_shift undercut"
 )
 OF_PAIRS = (
-    "centre_distance working_pressure_angle backlash ratio "
-    "path_of_contact contact_ratio tip_clearances tip_overlap"
+    "centre_distance working_pressure_angle backlash ratio path_of_contact contact_ratio tip_clearances tip_overlap"
 )
 ENDS = ("rest", "velocity", "turn", "motion")
 
@@ -72,13 +70,7 @@ def cam(name: str) -> Entries:
     found = parts.load(f"gallery:{name}").solve()
     for number in range(len(found.cam.walls)):
         yield f"profile/{number}", "m", curve(found.profile(60, number))
-    for each in (
-        "pressure_angle_rise",
-        "pressure_angle_fall",
-        "smallest_radius",
-        "hollow_radius",
-        "least_growth",
-    ):
+    for each in ("pressure_angle_rise", "pressure_angle_fall", "smallest_radius", "hollow_radius", "least_growth"):
         yield each, "", getattr(found, each)
     yield "pitch curve", "m", curve(found.pitch_curve(60))
     yield "cutter path", "m", curve(found.cutter_path(points=60))
@@ -104,9 +96,7 @@ def laws(ends: str) -> Entries:
     """The laws of motion that fit two ends: curves, peaks, smoothness."""
     u = np.linspace(0.0, 1.0, 41)
     for law in lw.laws_for(*ends.split(" to ")):
-        name = (
-            f"{law.name}{'' if law.portion is None else law.portion}{' backwards' if law.backwards else ''}"
-        )
+        name = f"{law.name}{'' if law.portion is None else law.portion}{' backwards' if law.backwards else ''}"
         if law.any_ends:
             yield name, "", "any ends"
             continue

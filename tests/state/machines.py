@@ -60,9 +60,7 @@ def forces(machine: Machine) -> Entries:
     """Columns of the forces that those of the motion have not, powers, and what each load does."""
     found = machine.forces
     before = machine.motion.columns()
-    yield from columns(
-        {k: v for k, v in found.columns().items() if k not in before and not k.startswith(ROUNDING)}
-    )
+    yield from columns({k: v for k, v in found.columns().items() if k not in before and not k.startswith(ROUNDING)})
     yield "power", "W", curve(found.power)
     yield "friction power", "W", curve(found.friction_power)
     yield from attempt("torque from power", lambda: [("", "N·m", curve(found.input_torque_from_power))])
@@ -174,13 +172,8 @@ def range_of(machine: Machine, driver: str) -> Entries:
 
 def running(machine: Machine) -> Entries:
     """Motor, flywheel and true speed for some fluctuations."""
-    for options in (
-        {"fluctuation": 0.02},
-        {"fluctuation": 0.1, "ratio": 4.0, "efficiency": 0.9, "margin": 1.2},
-    ):
-        yield from attempt(
-            str(options["fluctuation"]), lambda options=options: running_with(machine, options)
-        )
+    for options in ({"fluctuation": 0.02}, {"fluctuation": 0.1, "ratio": 4.0, "efficiency": 0.9, "margin": 1.2}):
+        yield from attempt(str(options["fluctuation"]), lambda options=options: running_with(machine, options))
 
 
 def running_with(machine: Machine, options: Mapping[str, float]) -> Entries:

@@ -20,10 +20,14 @@ NUMBERS = 2e-7
 WRITTEN, DRAWN = 4e-16, 2e-13
 #: Names of design numbers by the beginnings of a page's.
 METRICS = {
-    "range:angle:": "swing_angle", "range:s:": "stroke", "ratio:angle:": "quick_return_ratio",
-    "ratio:s:": "quick_return_ratio", "least:m:": "transmission_angle", "largest:effort:": "peak_input_torque",
+    "range:angle:": "swing_angle",
+    "range:s:": "stroke",
+    "ratio:angle:": "quick_return_ratio",
+    "ratio:s:": "quick_return_ratio",
+    "least:m:": "transmission_angle",
+    "largest:effort:": "peak_input_torque",
     "rms:effort:": "rms_input_torque",
-}  # fmt: skip
+}
 #: Changes each dimension that can change a little, one after the other, in the order of their addresses' lengths.
 CHANGED = """(s, seed) => {
   const {model} = s, size = model.size;

@@ -12,8 +12,7 @@ from typing import Any
 import pytest
 
 CHROMIUM = next(
-    (found for name in ("chromium", "chromium-browser", "google-chrome") if (found := shutil.which(name))),
-    None,
+    (found for name in ("chromium", "chromium-browser", "google-chrome") if (found := shutil.which(name))), None
 )
 try:
     from playwright import sync_api
@@ -67,9 +66,7 @@ class Opened(Worded):
         super().__init__(tab)
         self.errors: list[str] = []
         self.requests: list[str] = []
-        tab.on(
-            "console", lambda message: self.errors.append(message.text) if message.type == "error" else None
-        )
+        tab.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
         tab.on("pageerror", lambda error: self.errors.append(str(error)))
         tab.on("request", lambda request: self.requests.append(request.url))
 

@@ -72,14 +72,20 @@ _SOLVE = """s => {
   }
   return best;
 }"""
-_CATEGORIES = (
-    "devtools.timeline", "disabled-by-default-devtools.timeline", "toplevel", "cc", "viz", "__metadata",
-)  # fmt: skip
+_CATEGORIES = ("devtools.timeline", "disabled-by-default-devtools.timeline", "toplevel", "cc", "viz", "__metadata")
 _MAIN = {
-    "UpdateLayoutTree": "style", "Layout": "layout", "PrePaint": "recording", "Paint": "recording",
-    "Layerize": "recording", "Commit": "recording", "FunctionCall": "scripts", "EventDispatch": "scripts",
-    "FireAnimationFrame": "scripts", "MinorGC": "scripts", "MajorGC": "scripts",
-}  # fmt: skip
+    "UpdateLayoutTree": "style",
+    "Layout": "layout",
+    "PrePaint": "recording",
+    "Paint": "recording",
+    "Layerize": "recording",
+    "Commit": "recording",
+    "FunctionCall": "scripts",
+    "EventDispatch": "scripts",
+    "FireAnimationFrame": "scripts",
+    "MinorGC": "scripts",
+    "MajorGC": "scripts",
+}
 _COMPOSITORS = ("Compositor", "VizCompositorThread")
 
 
@@ -123,9 +129,7 @@ def _by_move(events: list[dict[str, Any]]) -> dict[str, list[float]]:
             found["compositor"][move] += own
         elif name == "ThreadPoolForegroundWorker" and thread[0] == page[0]:
             found["filling"][move] += own
-    return dict(
-        sorted(found.items(), key=lambda item: (not item[0].startswith((" ", "page")), item[0][:1] == " "))
-    )
+    return dict(sorted(found.items(), key=lambda item: (not item[0].startswith((" ", "page")), item[0][:1] == " ")))
 
 
 def _own_times(events: list[dict[str, Any]]) -> Iterator[tuple[tuple[int, int], dict[str, Any], float]]:
@@ -154,9 +158,7 @@ def said(title: str, times: list[float]) -> dict[str, Any]:
 
 def said_of_drag(title: str, clock: list[float], work: Mapping[str, list[float]]) -> list[dict[str, Any]]:
     """The clock of a drag, all of its kinds of work, and their sum."""
-    whole = [
-        sum(each) for each in zip(*(work[name] for name in ("page", "filling", "compositor")), strict=True)
-    ]
+    whole = [sum(each) for each in zip(*(work[name] for name in ("page", "filling", "compositor")), strict=True)]
     print(f"{title}")
     rows = {"from a move to its frame, by the clock": clock, "processor time of a move": whole, **work}
     return [{**said(f"  {name}", times), "of": title} for name, times in rows.items()]
@@ -206,9 +208,7 @@ def opening(folder: Path) -> Iterator[float]:
 
 def studio_opening(folder: Path) -> Iterator[float]:
     """Times (ms) of the studio from its command to the first picture; a first start compiles the modules."""
-    (folder / "machine.yaml").write_text(
-        lw.read_document("gallery:jaw_crusher_sixbar").text, encoding="utf-8"
-    )
+    (folder / "machine.yaml").write_text(lw.read_document("gallery:jaw_crusher_sixbar").text, encoding="utf-8")
     command = [sys.executable, "-m", "linkwright", "studio", "machine.yaml", "--no-browser"]
     compiled = {"PYTHONDONTWRITEBYTECODE": "", "PYTHONPYCACHEPREFIX": str(folder / "compiled")}
     with browser() as chromium:

@@ -27,6 +27,4 @@ def page(name: str) -> Path:
 
 def page_of(text: str, folder: Path) -> Path:
     """The page of a model's text."""
-    return lw.export(
-        lw.solve_motion(lw.loads(text), steps=STEPS), folder / "page.html", text=text, force=True
-    )
+    return lw.export(lw.solve_motion(lw.loads(text), steps=STEPS), folder / "page.html", text=text, force=True)

@@ -20,9 +20,23 @@ from linkwright.cli import main
 
 #: What the page may ask, by the ends of its addresses.
 REQUESTS = (
-    "files", "open", "read", "keep", "state", "save", "disk", "solve", "edit", "curve", "optimize", "goals",
-    "candidates", "enough", "take", "set",
-)  # fmt: skip
+    "files",
+    "open",
+    "read",
+    "keep",
+    "state",
+    "save",
+    "disk",
+    "solve",
+    "edit",
+    "curve",
+    "optimize",
+    "goals",
+    "candidates",
+    "enough",
+    "take",
+    "set",
+)
 
 
 @dataclass(frozen=True)
@@ -77,9 +91,7 @@ def serving(folder: Path, file: str | None = None) -> Iterator[Studio]:
 
 def _interrupt(thread: threading.Thread, port: int) -> None:
     """Ctrl+C for a thread; a connection wakes the server that waits for one."""
-    ctypes.pythonapi.PyThreadState_SetAsyncExc(
-        ctypes.c_ulong(thread.ident or 0), ctypes.py_object(KeyboardInterrupt)
-    )
+    ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread.ident or 0), ctypes.py_object(KeyboardInterrupt))
     with suppress(OSError):
         socket.create_connection(("127.0.0.1", port), timeout=5).close()
     thread.join(10)

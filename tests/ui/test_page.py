@@ -363,9 +363,7 @@ def test_a_link_carries_the_dimensions(opened: Opened) -> None:
     assert opened.values()["crank.length"] == start
 
 
-ITERATED = (
-    "triad", "class_four_group", "fourth_order_group", "rack_and_rocker", "stephenson_sixbar_triad", "wedge",
-)  # fmt: skip
+ITERATED = ("triad", "class_four_group", "fourth_order_group", "rack_and_rocker", "stephenson_sixbar_triad", "wedge")
 
 #: A triad whose third leg slides on the frame.
 SLIDING = """
@@ -403,9 +401,7 @@ def test_a_changed_guide_is_followed_as_by_the_solver(opened: Opened, tmp_path: 
 def test_both_languages(opened: Opened, tmp_path: Path) -> None:
     """A page made in Chinese, its sentences and its numbers' names; the other language and back."""
     opened.open(
-        lw.living_page(lw.read_document("gallery:crank_rocker"), steps=36, language="zh").save(
-            tmp_path / "zh.html"
-        )
+        lw.living_page(lw.read_document("gallery:crank_rocker"), steps=36, language="zh").save(tmp_path / "zh.html")
     )
     table, words = opened.tab.locator("table").first, opened.tab.evaluate("linkwright.data.words")
     assert words["en"].keys() == words["zh"].keys()
@@ -484,9 +480,7 @@ def test_names_are_no_markup_and_nothing_is_fetched(opened: Opened, tmp_path: Pa
 @pytest.mark.parametrize("scheme", ["light", pytest.param("dark", marks=pytest.mark.rotating)])
 def test_axe_finds_nothing(chromium: Any, scheme: str) -> None:
     axe = pytest.importorskip("axe_playwright_python.sync_playwright")
-    context = chromium.new_context(
-        viewport={"width": 1280, "height": 900}, color_scheme=scheme, bypass_csp=True
-    )
+    context = chromium.new_context(viewport={"width": 1280, "height": 900}, color_scheme=scheme, bypass_csp=True)
     shown = Opened(context.new_page())
     shown.open(page("jaw_crusher_sixbar"))
     found = axe.Axe().run(shown.tab)
@@ -495,9 +489,7 @@ def test_axe_finds_nothing(chromium: Any, scheme: str) -> None:
 
 
 @pytest.mark.rotating
-def test_wheels_with_phases_from_the_drawing_are_in_the_file_of_a_page(
-    opened: Opened, tmp_path: Path
-) -> None:
+def test_wheels_with_phases_from_the_drawing_are_in_the_file_of_a_page(opened: Opened, tmp_path: Path) -> None:
     opened.open(page_of(GEARED, tmp_path))
     assert handed_out_and_read(opened, GEARED, tmp_path) > 8
 

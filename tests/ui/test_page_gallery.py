@@ -12,17 +12,13 @@ from tests.ui.pages import page
 
 pytestmark = needs_chromium
 #: Pins, slides, slots, racks, chains, two drivers, none, a followed group; gears and cams have tests of their own.
-CORE = (
-    "jaw_crusher_sixbar", "triad", "geneva_wheel", "chain_drive", "dyad_rrr", "rack_and_rocker", "truss",
-)  # fmt: skip
+CORE = ("jaw_crusher_sixbar", "triad", "geneva_wheel", "chain_drive", "dyad_rrr", "rack_and_rocker", "truss")
 
 
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=() if name in CORE else pytest.mark.rotating) for name in store.names()]
 )
-def test_a_page_has_the_solvers_numbers_and_hands_out_its_machine(
-    opened: Opened, tmp_path: Path, name: str
-) -> None:
+def test_a_page_has_the_solvers_numbers_and_hands_out_its_machine(opened: Opened, tmp_path: Path, name: str) -> None:
     mechanism = store.machine(name)
     opened.open(page(name))
     # Polynomials through few positions give a mean square.

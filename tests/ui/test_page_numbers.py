@@ -18,14 +18,13 @@ from tests.ui.texts import (
     RAMP_ON_A_TRIAD,
     SEVERAL_TURNS,
     with_load,
-)  # fmt: skip
+)
 
 import linkwright as lw
 
 pytestmark = needs_chromium
 BY_PHASE = (
-    "{kind: force, on: slider, at: F, direction: 180 deg, magnitude: 900 kN,"
-    " phase: {of: guide, from: min, to: max}}"
+    "{kind: force, on: slider, at: F, direction: 180 deg, magnitude: 900 kN, phase: {of: guide, from: min, to: max}}"
 )
 #: Loads by phases of a triad, of a cycle of several turns and of the steepest machine, friction, drivers by laws.
 CASES = {

@@ -28,19 +28,13 @@ pytestmark = needs_chromium
 
 def twenty_links() -> str:
     """A crank and nine dyads in a row: with the frame twenty links."""
-    points, links, drawing = (
-        {"O0": (0.0, 0.0)},
-        ["  crank: {points: [O0, A0], mass: 1 kg}"],
-        {"A0": (0.03, 0.04)},
-    )
+    points, links, drawing = ({"O0": (0.0, 0.0)}, ["  crank: {points: [O0, A0], mass: 1 kg}"], {"A0": (0.03, 0.04)})
     for k in range(1, 10):
         points[f"O{k}"] = (0.25 * k, 0.0)
         drawing[f"A{k}"] = (0.25 * k + 0.02, 0.16)
         links.append(f"  coupler{k}: {{points: [A{k - 1}, A{k}], mass: 1 kg}}")
         links.append(f"  rocker{k}: {{points: [A{k}, O{k}], mass: 1 kg}}")
-    shown = [
-        ", ".join(f"{name}: [{x} m, {y} m]" for name, (x, y) in each.items()) for each in (points, drawing)
-    ]
+    shown = [", ".join(f"{name}: [{x} m, {y} m]" for name, (x, y) in each.items()) for each in (points, drawing)]
     rows = "\n".join(links)
     return (
         f"format: 1\nname: Twenty links\nframe: {{points: {{{shown[0]}}}}}\nlinks:\n{rows}\n"
@@ -93,9 +87,7 @@ def test_a_photo_to_scale_and_linkages_for_a_drawn_curve(chromium: Any, tmp_path
         tab = drawn.tab
         box = tab.locator("svg.drafting").bounding_box()
         drawn.tool("photo")
-        (tmp_path / "photo.svg").write_text(
-            '<svg xmlns="http://www.w3.org/2000/svg" width="300" height="200"/>'
-        )
+        (tmp_path / "photo.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg" width="300" height="200"/>')
         tab.locator("input[type=file]").set_input_files(tmp_path / "photo.svg")
         tab.locator(".photo[visibility=visible]").wait_for(state="attached")
         first, apart, widths = 60.0, 120.0, []
@@ -169,9 +161,7 @@ def test_twenty_links_and_a_server_that_is_killed_and_comes_back(
 
 
 @pytest.mark.rotating
-def test_an_optimisation_from_the_studio_writes_its_design_into_the_file(
-    chromium: Any, tmp_path: Path
-) -> None:
+def test_an_optimisation_from_the_studio_writes_its_design_into_the_file(chromium: Any, tmp_path: Path) -> None:
     """Dimensions and a number chosen, designs as they are found, one taken; another machine beside it; nothing for
     axe."""
     axe = pytest.importorskip("axe_playwright_python.sync_playwright")
@@ -220,9 +210,7 @@ def test_a_hand_leaves_short_numbers_and_a_limit_a_machine_that_moves(chromium: 
         assert all(len(each.replace(".", "")) <= 4 for each in lengths)
         drawn.pull("A", 287, -263, steps=8)
         drawn.solved()
-        wall = tab.evaluate(
-            "() => (s => [s.model.wall?.kind, linkwright.wall(s, s.model.wall)])(desk.session.value)"
-        )
+        wall = tab.evaluate("() => (s => [s.model.wall?.kind, linkwright.wall(s, s.model.wall)])(desk.session.value)")
         assert wall[0] in ("apart", "change")
         assert tab.locator(".status").first.inner_text() == wall[1]
         assert lw.solve_motion(lw.loads(drawn.area.input_value()), steps=90).ok.all()
@@ -361,9 +349,7 @@ def test_a_drag_that_the_file_refuses_goes_back_and_keys_undo_text(chromium: Any
         tab.evaluate("() => new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go)))")
         field = drawn.labelled("page.value_of", name="c1.length")
         for wrong, wall in (("", None), ("-5", "length")):
-            field.evaluate(
-                "(e, x) => (e.value = x, e.dispatchEvent(new Event('change', {bubbles: true})))", wrong
-            )
+            field.evaluate("(e, x) => (e.value = x, e.dispatchEvent(new Event('change', {bubbles: true})))", wrong)
             tab.wait_for_function(
                 "() => document.querySelector('[data-address=\"c1.length\"] input[type=number]').value === '50'"
             )
@@ -437,9 +423,7 @@ def test_saving_asks_before_it_overwrites(chromium: Any, tmp_path: Path) -> None
 
 
 @pytest.mark.rotating
-def test_findings_stand_at_their_lines_and_two_windows_notice_each_other(
-    chromium: Any, tmp_path: Path
-) -> None:
+def test_findings_stand_at_their_lines_and_two_windows_notice_each_other(chromium: Any, tmp_path: Path) -> None:
     text = store.text("crank_rocker")
     (tmp_path / "a.yaml").write_text(text, encoding="utf-8")
     with serving(tmp_path, "a.yaml") as studio:
@@ -465,9 +449,7 @@ def test_findings_stand_at_their_lines_and_two_windows_notice_each_other(
             assert each.errors == []
 
 
-def test_a_page_that_is_loaded_again_shows_the_same_file_in_the_same_language(
-    chromium: Any, tmp_path: Path
-) -> None:
+def test_a_page_that_is_loaded_again_shows_the_same_file_in_the_same_language(chromium: Any, tmp_path: Path) -> None:
     """A file of the gallery that was never changed, a drawing that was saved and one that was not; the paper says
     how wide its squares are and where the pointer is."""
     with hand(chromium, tmp_path) as drawn:

@@ -178,9 +178,7 @@ def test_a_file_that_two_windows_have_changed_is_not_left_before_one_text_is_cho
 
 def test_names_and_sizes_of_loads_are_text_on_the_paper(chromium: Any, tmp_path: Path) -> None:
     """Markup in a load's name, size or point, on the paper, in the list and in sentences, becomes no element."""
-    loads = (
-        f'loads:\n  "{NASTY}": {{kind: force, on: rocker, at: B, direction: 0 deg, magnitude: "{NASTY}"}}\n'
-    )
+    loads = f'loads:\n  "{NASTY}": {{kind: force, on: rocker, at: B, direction: 0 deg, magnitude: "{NASTY}"}}\n'
     (tmp_path / "a.yaml").write_text(FOURBAR + loads)
     with hand(chromium, tmp_path, "a.yaml", bypass_csp=True) as found:
         found.tab.locator("svg.drafting .load").wait_for()

@@ -31,52 +31,42 @@ def sent(studio: Studio, request: bytes) -> tuple[int, bytes]:
     return int(head.split()[1]), body
 
 
-def post(
-    studio: Studio, *lines: bytes, body: bytes = b"{}", path: bytes = b"/api/files"
-) -> tuple[int, bytes]:
+def post(studio: Studio, *lines: bytes, body: bytes = b"{}", path: bytes = b"/api/files") -> tuple[int, bytes]:
     """A request of the page with other header lines."""
     host = f"127.0.0.1:{studio.server_port}".encode()
     head = [b"POST " + path + b" HTTP/1.1", b"Host: " + host, b"X-Linkwright-Token: " + studio.token.encode()]
     return sent(studio, b"\r\n".join([*head, b"Content-Type: application/json", *lines, b"", body]))
 
 
-def test_malformed_requests_are_refused_with_a_sentence(
-    tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_malformed_requests_are_refused_with_a_sentence(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     with serving(tmp_path) as studio:
         host = f"Host: 127.0.0.1:{studio.server_port}\r\n".encode()
-        lengths = (
-            b"\xb2",
-            b"-1",
-            b"+2",
-            b"1_0",
-            b"2.0",
-            b"0x2",
-            b"",
-            b" ",
-            b"9" * 9000,
-            "٢".encode(),
-            b"2, 2",
-        )
+        lengths = (b"\xb2", b"-1", b"+2", b"1_0", b"2.0", b"0x2", b"", b" ", b"9" * 9000, "٢".encode(), b"2, 2")
         found = [post(studio, b"Content-Length: " + each) for each in lengths]
         found += [post(studio), post(studio, b"Transfer-Encoding: chunked", body=b"2\r\n{}\r\n0\r\n\r\n")]
         found.append(post(studio, b"Content-Length: 3000000"))
         assert {status for status, _ in found} == {411, 413}
         good = b"Content-Length: 2"
         found += [
-            post(studio, good, path=path)
-            for path in (b"/api/", b"/api/x", b"//", b"/api/../files", b"http://[")
+            post(studio, good, path=path) for path in (b"/api/", b"/api/x", b"//", b"/api/../files", b"http://[")
         ]
         found += [post(studio, good, b"X-" + b"x" * 70_000 + b": 1"), post(studio, *[b"X: 1"] * 200, good)]
         found += [
             sent(studio, line + b"\r\n" + host + b"\r\n")
             for line in (
-                b"GET http://[ HTTP/1.1", b"GET /?token=%FF%00 HTTP/1.1", b"GET /?token=\xff HTTP/1.1",
-                b"GET / HTTP/9.9", b"GET / HTTP/x", b"PUT / HTTP/1.1", b"\x00\xff / HTTP/1.1",
-                b"PUT /api/save HTTP/1.1", b"OPTIONS * HTTP/1.1", b"GET /" + b"x" * 70_000 + b" HTTP/1.1",
+                b"GET http://[ HTTP/1.1",
+                b"GET /?token=%FF%00 HTTP/1.1",
+                b"GET /?token=\xff HTTP/1.1",
+                b"GET / HTTP/9.9",
+                b"GET / HTTP/x",
+                b"PUT / HTTP/1.1",
+                b"\x00\xff / HTTP/1.1",
+                b"PUT /api/save HTTP/1.1",
+                b"OPTIONS * HTTP/1.1",
+                b"GET /" + b"x" * 70_000 + b" HTTP/1.1",
                 b"GET /\x00 HTTP/1.1",
             )
-        ]  # fmt: skip
+        ]
         found.append(sent(studio, b"GET / HTTP/1.1\r\n\r\n"))
         for status, body in found:
             assert 400 <= status < 500, body
@@ -86,9 +76,23 @@ def test_malformed_requests_are_refused_with_a_sentence(
 
 
 BODIES = (
-    b"", b"{", b"[]", b"3", b"null", b'"x"', b"\xff\xfe", b"\x00", b"{}{}", b"[" * 200_000, b'{"a":' * 90_000,
-    b'{"text": "\\ud800"}', b'{"name": NaN}', b'{"serial": Infinity}', b'{"serial": 1e999}', b"9" * 5000,
-)  # fmt: skip
+    b"",
+    b"{",
+    b"[]",
+    b"3",
+    b"null",
+    b'"x"',
+    b"\xff\xfe",
+    b"\x00",
+    b"{}{}",
+    b"[" * 200_000,
+    b'{"a":' * 90_000,
+    b'{"text": "\\ud800"}',
+    b'{"name": NaN}',
+    b'{"serial": Infinity}',
+    b'{"serial": 1e999}',
+    b"9" * 5000,
+)
 
 
 def test_bodies_that_are_no_requests_are_refused_with_a_sentence(
@@ -121,9 +125,31 @@ ACTIONS: tuple[dict[str, Any], ...] = (
     {"do": "remove", "what": "load", "name": "load1"},
 )
 WRONG: tuple[Any, ...] = (
-    None, True, -1, 10**400, 1e300, "", "\0", "a\nb", "a: {b", "²", "²:3", "250 N, 180 deg", "NaN", [], ["A"],
-    [0.0, "x"], [1e300, 0.0], [None, None], {}, {"A": [0, 0, 0]}, {"x": {"y": [[]]}}, "#", "'", "x" * 300,
-)  # fmt: skip
+    None,
+    True,
+    -1,
+    10**400,
+    1e300,
+    "",
+    "\0",
+    "a\nb",
+    "a: {b",
+    "²",
+    "²:3",
+    "250 N, 180 deg",
+    "NaN",
+    [],
+    ["A"],
+    [0.0, "x"],
+    [1e300, 0.0],
+    [None, None],
+    {},
+    {"A": [0, 0, 0]},
+    {"x": {"y": [[]]}},
+    "#",
+    "'",
+    "x" * 300,
+)
 LEFT_OUT = object()
 
 
@@ -153,14 +179,7 @@ def test_actions_with_wrong_values_are_refused_or_leave_a_text_that_can_be_drawn
                 assert again[0] == 200, (action, again)
             else:
                 assert len(found["error"]) > 5
-        good = {
-            "name": "a.yaml",
-            "text": "format: 1\n",
-            "window": "w",
-            "serial": 0,
-            "version": "",
-            "draft": "",
-        }
+        good = {"name": "a.yaml", "text": "format: 1\n", "window": "w", "serial": 0, "version": "", "draft": ""}
         keys = (*good, "values", "points", "ending", "gallery", "action")
         asks = [(name, key, value) for name in REQUESTS for key in keys for value in WRONG]
         for name, key, value in rng.sample(asks, 400):
@@ -172,9 +191,7 @@ def test_actions_with_wrong_values_are_refused_or_leave_a_text_that_can_be_drawn
 def test_refusals_are_in_the_language_of_the_request(tmp_path: Path) -> None:
     with serving(tmp_path) as studio:
         action = {"do": "mass", "link": 3}
-        said = [
-            asked(studio, "edit", {"text": TEXT, "action": action, "language": each}) for each in ("en", "zh")
-        ]
+        said = [asked(studio, "edit", {"text": TEXT, "action": action, "language": each}) for each in ("en", "zh")]
         assert [status for status, _ in said] == [400, 400]
         english, chinese = (found["error"] for _, found in said)
         assert english != chinese and not chinese.isascii()
@@ -194,12 +211,7 @@ def test_only_this_page_may_ask(tmp_path: Path) -> None:
         assert asked(studio, "files", {}, Origin="null")[0] == 403
         assert asked(studio, "files", {}, Content_Type="text/plain")[0] == 404
         connection = http.client.HTTPConnection("127.0.0.1", studio.server_port)
-        for path, status in (
-            ("/", 403),
-            ("/?token=guess", 403),
-            ("/../pyproject.toml", 404),
-            ("/engine.mjs", 404),
-        ):
+        for path, status in (("/", 403), ("/?token=guess", 403), ("/../pyproject.toml", 404), ("/engine.mjs", 404)):
             connection.request("GET", path)
             answer = connection.getresponse()
             answer.read()
@@ -222,9 +234,12 @@ def test_no_socket_is_opened_for_other_pages(tmp_path: Path) -> None:
         for path in ("/", f"/?token={studio.token}", "/api/files", "/ws"):
             connection = http.client.HTTPConnection("127.0.0.1", studio.server_port, timeout=20)
             headers = {
-                "Upgrade": "websocket", "Connection": "Upgrade", "Origin": "https://evil.example",
-                "Sec-WebSocket-Version": "13", "Sec-WebSocket-Key": base64.b64encode(b"0" * 16).decode(),
-            }  # fmt: skip
+                "Upgrade": "websocket",
+                "Connection": "Upgrade",
+                "Origin": "https://evil.example",
+                "Sec-WebSocket-Version": "13",
+                "Sec-WebSocket-Key": base64.b64encode(b"0" * 16).decode(),
+            }
             connection.request("GET", path, headers=headers)
             answer = connection.getresponse()
             answer.read()

@@ -17,9 +17,7 @@ ROUNDS, HANDS = 25, 4
 def test_of_writers_that_may_not_replace_one_writes(tmp_path: Path) -> None:
     for k in range(ROUNDS):
         path = tmp_path / f"{k}.csv"
-        found = at_once(
-            *(lambda h=hand, p=path: atomic_write(p, b"%d" % h, force=False) for hand in range(HANDS))
-        )
+        found = at_once(*(lambda h=hand, p=path: atomic_write(p, b"%d" % h, force=False) for hand in range(HANDS)))
         (won,) = (place for place, each in enumerate(found) if isinstance(each, Path))
         assert path.read_bytes() == b"%d" % won
         assert all(isinstance(each, RequestError) for place, each in enumerate(found) if place != won)

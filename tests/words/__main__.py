@@ -22,9 +22,7 @@ def main() -> int:
         after, (said, count) = snapshot(language)
         changed |= after != before
         print(*unified_diff(before.splitlines(), after.splitlines(), lineterm="", n=0), sep="\n")
-        print(
-            f"{path.name}: {len(after.splitlines())} lines; {said} of {count} sentences are said by the program"
-        )
+        print(f"{path.name}: {len(after.splitlines())} lines; {said} of {count} sentences are said by the program")
         if not given.check:
             path.write_text(after, "utf-8")
     return int(changed and given.check)

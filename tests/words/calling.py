@@ -49,10 +49,7 @@ def crusher(**lengths: float) -> lw.Mechanism:
 
 def loaded(load: str) -> lw.Forces:
     """The forces of a four-bar with a torque on its rocker that a text describes."""
-    text = (
-        FOURBAR.format(crank=1, coupler=3, rocker=2.5)
-        + f"loads: {{push: {{kind: torque, on: rocker, {load}}}}}\n"
-    )
+    text = FOURBAR.format(crank=1, coupler=3, rocker=2.5) + f"loads: {{push: {{kind: torque, on: rocker, {load}}}}}\n"
     return lw.solve_forces(lw.solve_motion(lw.loads(text), steps=24))
 
 
@@ -68,9 +65,7 @@ def sweep(**options: Any) -> Any:
 
 def sweep_crusher(output: str) -> Any:
     """The greatest value of an output of the crusher."""
-    return lw.sweep(
-        machine("jaw_crusher_sixbar"), {"crank.length": [0.1]}, outputs=[f"{output} max"], steps=12
-    )
+    return lw.sweep(machine("jaw_crusher_sixbar"), {"crank.length": [0.1]}, outputs=[f"{output} max"], steps=12)
 
 
 def study(vary: dict[str, Any], **options: Any) -> lw.Study:

@@ -41,9 +41,7 @@ def sources(folder: Path) -> Iterator[Source]:
 
 def snapshot(language: str) -> tuple[str, tuple[int, int]]:
     """The snapshot of a language, and how many of the translated texts were said, of how many."""
-    for module in walk_packages(
-        lw.__path__, "linkwright."
-    ):  # texts of tables are made here, and not yet said
+    for module in walk_packages(lw.__path__, "linkwright."):  # texts of tables are made here, and not yet said
         if not module.name.endswith("__main__"):
             import_module(module.name)
     seen: set[str] = set()

@@ -285,19 +285,11 @@ class Analysis:
         if isinstance(part, StrokeSummary):
             driven = self.meant(part.by)
             reversals = driven, self.limits(driven)
-        elif (
-            output
-            and part.kind in OF_LIMITS
-            and self.resolver.closes
-            and self.complete
-            and self.limits(output)
-        ):
+        elif output and part.kind in OF_LIMITS and self.resolver.closes and self.complete and self.limits(output):
             return self._of_limits(output, part.kind)
         return self.find(part, self.signal(part.output), self._of, reversals)
 
-    def find(
-        self, part: Summary, signal: Signal, of: str, reversals: Reversals | None = None
-    ) -> SummaryValue:
+    def find(self, part: Summary, signal: Signal, of: str, reversals: Reversals | None = None) -> SummaryValue:
         """A summary of a signal, (n,) of the motion or of the forces, between the positions where that can be."""
         ways = self.ways if self.motion.steps > 2 else None
         if part.kind in ("mean", "rms") and self.partial:
@@ -369,9 +361,7 @@ class Analysis:
         """
         return self.find(Summary("", "mean"), signal, self._of).value
 
-    def extreme(
-        self, signal: Callable[..., Floats], kind: Kind, *, of: str = "motion"
-    ) -> SummaryValue | None:
+    def extreme(self, signal: Callable[..., Floats], kind: Kind, *, of: str = "motion") -> SummaryValue | None:
         """Largest or smallest value of a signal over the cycle, found between the positions where that can be.
 
         ``signal`` takes a Motion (or Forces, with ``of="forces"``) and gives (n,). None where no position is

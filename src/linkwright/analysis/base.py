@@ -87,22 +87,11 @@ class MetricValue:
     def cells(self, language: str = "en") -> tuple[Cell, ...]:
         """What tables write of it, in the order of ``CELLS``; the last is the recommended limit."""
         metric, limit = METRICS[self.metric](), ""
-        at = (
-            None
-            if self.at is None
-            else Amount(self.at if abs(self.at) >= NO_PLACE else 0.0, self.at_dimension)
-        )
+        at = None if self.at is None else Amount(self.at if abs(self.at) >= NO_PLACE else 0.0, self.at_dimension)
         if self.limit is not None:
             limit = f"{'≥' if metric.better == 'higher' else '≤'} {shown(self.limit, self.dimension)}"
         label, subject = metric.label_in(language, self.dimension), in_words(self.subject, language)
-        return (
-            label,
-            subject,
-            Amount(self.value, self.dimension, bare=True),
-            shown_unit(self.dimension),
-            at,
-            limit,
-        )
+        return (label, subject, Amount(self.value, self.dimension, bare=True), shown_unit(self.dimension), at, limit)
 
     def data(self, language: str = "en") -> dict[str, Any]:
         """Plain data."""
@@ -270,13 +259,7 @@ class Metric(ABC):
                 continue
             remarks = (*self.remarks(value, at, analysis), *_unbounded(value, at, analysis))
             yield self.value(
-                analysis,
-                number.subject,
-                value,
-                dimension=number.dimension,
-                at=at,
-                exact=exact,
-                remarks=remarks,
+                analysis, number.subject, value, dimension=number.dimension, at=at, exact=exact, remarks=remarks
             )
 
     def value(

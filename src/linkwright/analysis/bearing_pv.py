@@ -28,7 +28,7 @@ class BearingPv(Metric):
     label = _("bearing force times sliding speed")
     meaning = _(
         "Pin force times pin radius times relative angular velocity; divided by the "
-        "projected area of the bearing it is its p·v value.",
+        "projected area of the bearing it is its p·v value."
     )
 
     rank = 4
@@ -51,9 +51,7 @@ class BearingPv(Metric):
             mean = analysis.mean_of(lambda forces, heat=heat: np.abs(heat(forces)))
             radius = shown(joint.pin_radius or 0.0, "length")
             sentence = _(
-                "with a pin radius of {radius}; mean over the cycle {mean}",
-                radius=radius,
-                mean=shown(mean, "power"),
+                "with a pin radius of {radius}; mean over the cycle {mean}", radius=radius, mean=shown(mean, "power")
             )
             known = () if isnan(mean) else (Remark("bearing_pv.mean", sentence),)
             yield replace(found, remarks=(*known, *found.remarks))

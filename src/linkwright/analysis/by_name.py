@@ -28,10 +28,7 @@ from linkwright.words import _
 NO_OUTPUTS = _('no outputs are asked for; name some, such as "driver.effort rms"', code="study.no_outputs")
 
 
-NO_TEXT = _(
-    'invalid output {value}; write a text such as "driver.effort rms"',
-    code="study.no_output_name",
-)
+NO_TEXT = _('invalid output {value}; write a text such as "driver.effort rms"', code="study.no_output_name")
 
 
 def wanted(outputs: Iterable[str | tuple[str, str]]) -> tuple[Summary, ...]:
@@ -230,9 +227,7 @@ def _first_worst(values: Sequence[float], better: str) -> int:
     return first_largest(-sizes if better == "higher" else np.abs(sizes))
 
 
-def _no_subject(
-    error: type[LinkwrightError], name: str, subject: str, known: Iterable[str]
-) -> LinkwrightError:
+def _no_subject(error: type[LinkwrightError], name: str, subject: str, known: Iterable[str]) -> LinkwrightError:
     metric, _unused, _unused2 = name.partition(" ")
     return error(
         _(
@@ -250,9 +245,7 @@ def may_have(subject: str, analysis: Analysis) -> bool:
     return bool(subject) and subject.removesuffix(" max").removesuffix(" min") in map(str, analysis.outputs)
 
 
-def _chosen(
-    name: str, metric: Metric, numbers: Sequence[Number], subject: str, preferred: str
-) -> tuple[Number, ...]:
+def _chosen(name: str, metric: Metric, numbers: Sequence[Number], subject: str, preferred: str) -> tuple[Number, ...]:
     """The numbers of one subject, or all."""
     wanted = (subject,) if subject or metric.needs_forces else (preferred, f"{preferred} max")
     mine = tuple(number for number in numbers if number.subject in wanted)

@@ -170,9 +170,7 @@ def _doubles(
         position, velocity = _pairs(analysis, point, times)
         gap, turn = position[:, 1] - position[:, 0], cross(velocity[:, 0], velocity[:, 1])
         with np.errstate(all="ignore"):
-            change = (
-                np.stack([cross(gap, velocity[:, 1]), cross(gap, velocity[:, 0])], axis=1) / turn[:, None]
-            )
+            change = np.stack([cross(gap, velocity[:, 1]), cross(gap, velocity[:, 0])], axis=1) / turn[:, None]
         times = times + np.where(np.isfinite(change), np.clip(change, -abs(step), abs(step)), 0.0)
     position, velocity = _pairs(analysis, point, times)
     speeds = np.hypot(*np.moveaxis(velocity, -1, 0)).prod(axis=1)
@@ -180,9 +178,7 @@ def _doubles(
     interval = np.abs(times[:, 1] - times[:, 0]) % period
     met = np.hypot(*(position[:, 1] - position[:, 0]).T) <= SAME * length
     found: list[PlanePoint] = []
-    for i in np.flatnonzero(
-        met & across & (np.minimum(interval, period - interval) > NEIGHBOURS * abs(step))
-    ):
+    for i in np.flatnonzero(met & across & (np.minimum(interval, period - interval) > NEIGHBOURS * abs(step))):
         x, y = (float(c) for c in position[i, 0])
         if all(np.hypot(x - a, y - b) > DISTINCT * length for a, b in found):
             found.append((x, y))
@@ -196,9 +192,7 @@ def _pairs(analysis: Analysis, point: str, times: Floats) -> tuple[Floats, Float
     return track.position.reshape(-1, 2, 2), track.velocity.reshape(-1, 2, 2)
 
 
-def _cusps(
-    analysis: Analysis, point: str, motion: Motion, length: float
-) -> Iterator[tuple[PlanePoint, float]]:
+def _cusps(analysis: Analysis, point: str, motion: Motion, length: float) -> Iterator[tuple[PlanePoint, float]]:
     """Local minima of the speed where it vanishes; those at the same place are one."""
     time, speed = _speeds(analysis, point, motion)
     mean, interval, found = float(np.mean(speed)), float(np.ptp(time)) / POSITIONS, list[PlanePoint]()
@@ -221,9 +215,7 @@ def _speeds(analysis: Analysis, point: str, motion: Motion) -> tuple[Floats, Flo
     in order, with a point's speeds there."""
     time = motion.time
     if analysis.cycle is not None:
-        inner = nodes(
-            analysis.cycle.curve(lambda each: each.point(point).velocity.T, "motion", 2).edges
-        ).T.ravel()
+        inner = nodes(analysis.cycle.curve(lambda each: each.point(point).velocity.T, "motion", 2).edges).T.ravel()
         time = increasing(np.append(time, inner[(inner > time.min()) & (inner < time.max())]))
     speed = _speed(analysis, point, time)
     return time, np.where(speed <= AT_REST * speed.max(), 0.0, speed)
@@ -241,9 +233,7 @@ class CurveMetric(Metric):
     source = "Dijksman, Motion Geometry of Mechanisms; Wunderlich, Ebene Kinematik"
 
     def suits(self, analysis: Analysis) -> bool:
-        return (
-            super().suits(analysis) and analysis.complete and bool(coupler_points(analysis.motion.mechanism))
-        )
+        return super().suits(analysis) and analysis.complete and bool(coupler_points(analysis.motion.mechanism))
 
     def curves(self, analysis: Analysis) -> Iterator[CouplerCurve]:
         """The curves of all coupler points."""
@@ -309,9 +299,7 @@ class Cusp(CurveMetric):
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         for curve in self.curves(analysis):
-            remarks = tuple(
-                _remark("cusp.at", _("cusp at ({x}, {y})"), spot) for spot, _unused in curve.cusps
-            )
+            remarks = tuple(_remark("cusp.at", _("cusp at ({x}, {y})"), spot) for spot, _unused in curve.cusps)
             place, at = curve.cusps[0] if curve.cusps else (None, None)
             yield self.value(analysis, curve.point, len(curve.cusps), remarks=remarks, place=place, at=at)
 

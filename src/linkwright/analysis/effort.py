@@ -31,9 +31,7 @@ class EffortMetric(Metric):
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         for name, turns in analysis.motion.positions.rotary.items():
-            yield Number(
-                name, (Summary(f"{name}.effort", self.kind),), dimension="torque" if turns else "force"
-            )
+            yield Number(name, (Summary(f"{name}.effort", self.kind),), dimension="torque" if turns else "force")
 
 
 @METRICS.register("peak_input_torque")

@@ -92,18 +92,12 @@ def _notes(analysis: Analysis, ok: Flags) -> tuple[Message, ...]:
     """Notes where not all positions are reached; ``ok``: which of those that were asked for are."""
     name = analysis.motion.mechanism.name
     if not ok.any():
-        return (
-            _(
-                "{name!r} reaches none of the positions, so only numbers of its dimensions are known",
-                name=name,
-            ),
-        )
+        return (_("{name!r} reaches none of the positions, so only numbers of its dimensions are known", name=name),)
     if not analysis.partial:
         return ()
     message = (
         _(
-            "{name!r} reaches {reached} of {count} positions; numbers of the full cycle, such "
-            "as means, are left out",
+            "{name!r} reaches {reached} of {count} positions; numbers of the full cycle, such as means, are left out",
             code="metrics.part_reached",
         )
         if analysis.closed
@@ -140,8 +134,7 @@ def _without_rounding(rows: Sequence[MetricValue], negligible: Mapping[str, floa
             largest[row.dimension] = max(largest.get(row.dimension, 0.0), abs(row.value))
     return [
         replace(row, value=0.0, at=None)
-        if abs(row.value)
-        <= max(ROUNDING * largest.get(row.dimension, -1.0), negligible.get(row.dimension, -1.0))
+        if abs(row.value) <= max(ROUNDING * largest.get(row.dimension, -1.0), negligible.get(row.dimension, -1.0))
         else row
         for row in rows
     ]

@@ -31,9 +31,7 @@ class EnergyFluctuation(Metric):
     """Largest excess ΔE of the energy that a constant torque supplies over the energy that the machine takes, J."""
 
     label = _("energy fluctuation")
-    meaning = _(
-        "Largest excess of the energy that a constant torque supplies over what the machine takes.",
-    )
+    meaning = _("Largest excess of the energy that a constant torque supplies over what the machine takes.")
 
     rank = 3
     dimension = "energy"
@@ -44,9 +42,7 @@ class EnergyFluctuation(Metric):
 
     def suits(self, analysis: Analysis) -> bool:
         """For one driver that turns at constant speed through full turns, and does work."""
-        if not (
-            super().suits(analysis) and analysis.complete and analysis.loaded and analysis.forces is not None
-        ):
+        if not (super().suits(analysis) and analysis.complete and analysis.loaded and analysis.forces is not None):
             return False
         rate, period = analysis.input_rate, analysis.motion.positions.period or 0.0
         if len(analysis.motion.mechanism.drivers) != 1 or analysis.input_dimension != "angle" or not rate[0]:
@@ -68,9 +64,7 @@ class Flywheel(EnergyFluctuation):
     """Inertia ΔE/(δ ω²) less the machine's own mean one that keeps the speed even to δ = 0.02, kg·m² on the crank."""
 
     label = _("flywheel inertia (δ = 0.02)")
-    meaning = _(
-        "Inertia on the crank, beyond the machine's own, that keeps the speed even to δ = 0.02.",
-    )
+    meaning = _("Inertia on the crank, beyond the machine's own, that keeps the speed even to δ = 0.02.")
 
     dimension = "inertia"
 
@@ -82,9 +76,7 @@ class Flywheel(EnergyFluctuation):
         yield Number(next(iter(analysis.motion.mechanism.drivers)), (EXCESS, INERTIA, MEAN, PEAK), formula)
 
 
-def _inertia(
-    fluctuation: float, speed: float, energy: Scalar, own: Scalar, mean: Scalar, peak: Scalar
-) -> Scalar:
+def _inertia(fluctuation: float, speed: float, energy: Scalar, own: Scalar, mean: Scalar, peak: Scalar) -> Scalar:
     """The flywheel; NaN where the drivers do no work."""
     needed = maximum(energy / (fluctuation * speed * speed) - own, 0.0)
     return select(maximum(mean, -mean) > ZERO_TOLERANCE * peak, needed, float("nan"))
@@ -131,7 +123,7 @@ class ExactFlywheel(TrueSpeed):
     label = _("exact flywheel inertia (δ = 0.02)")
     meaning = _(
         "Inertia on the crank, beyond the machine's own, with which the true speed under a "
-        "constant motor torque fluctuates by just δ = 0.02.",
+        "constant motor torque fluctuates by just δ = 0.02."
     )
 
     dimension = "inertia"
@@ -144,8 +136,7 @@ class ReachedFluctuation(TrueSpeed):
 
     label = _("speed fluctuation reached (δ = 0.02 by the formula)")
     meaning = _(
-        "Fluctuation of the true speed, as share of the mean, with the flywheel that the "
-        "formula gives for δ = 0.02.",
+        "Fluctuation of the true speed, as share of the mean, with the flywheel that the formula gives for δ = 0.02."
     )
 
     dimension = "dimensionless"
@@ -160,7 +151,7 @@ class SpeedFluctuation(TrueSpeed):
     label = _("speed fluctuation")
     meaning = _(
         "Fluctuation of the true speed under a constant motor torque, as share of the mean, "
-        "with the inertia that the machine has.",
+        "with the inertia that the machine has."
     )
 
     dimension = "dimensionless"
@@ -178,8 +169,7 @@ class SlowestSpeed(SpeedFluctuation):
 
     label = _("slowest speed")
     meaning = _(
-        "Smallest true speed of the driver under a constant motor torque, with the inertia "
-        "that the machine has.",
+        "Smallest true speed of the driver under a constant motor torque, with the inertia that the machine has."
     )
 
     dimension = "angular_velocity"
@@ -193,8 +183,7 @@ class FastestSpeed(SpeedFluctuation):
 
     label = _("fastest speed")
     meaning = _(
-        "Largest true speed of the driver under a constant motor torque, with the inertia "
-        "that the machine has.",
+        "Largest true speed of the driver under a constant motor torque, with the inertia that the machine has."
     )
 
     dimension = "angular_velocity"

@@ -23,16 +23,13 @@ EQUAL = 1e-12
 #: What the types of loops are.
 TYPES = {
     "crank_rocker": _(
-        "crank-rocker: s + l < p + q ({s} + {l} < {p} + {q}) and the shortest link "
-        "{shortest} is next to the frame",
+        "crank-rocker: s + l < p + q ({s} + {l} < {p} + {q}) and the shortest link {shortest} is next to the frame"
     ),
     "double_crank": _("double crank: s + l < p + q ({s} + {l} < {p} + {q}) and the frame is shortest"),
-    "double_rocker": _(
-        "double rocker: s + l < p + q ({s} + {l} < {p} + {q}) and the coupler {shortest} is shortest",
-    ),
+    "double_rocker": _("double rocker: s + l < p + q ({s} + {l} < {p} + {q}) and the coupler {shortest} is shortest"),
     "change_point": _(
         "change point: s + l = p + q ({s} + {l} = {p} + {q}), so the links can come into one "
-        "line and the motion is not determined there",
+        "line and the motion is not determined there"
     ),
     "triple_rocker": _("triple rocker: s + l > p + q ({s} + {l} > {p} + {q}), so no link can turn fully"),
 }
@@ -132,7 +129,7 @@ class Grashof(Metric):
     label = _("Grashof margin")
     meaning = _(
         "Sum of the two middle lengths minus sum of the shortest and longest of a four-bar "
-        "loop; positive where the shortest link can turn fully.",
+        "loop; positive where the shortest link can turn fully."
     )
 
     dimension = "length"

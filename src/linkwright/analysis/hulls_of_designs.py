@@ -34,9 +34,7 @@ def swept(name: str, mechanism: Mechanism) -> dict[str, tuple[str, ...]]:
     return {each: known[each] for each in (chosen_subjects(name, subject, known) if known else ())}
 
 
-def hulls_of_designs(
-    mechanism: Mechanism, varied: Iterable[str], names: Iterable[str]
-) -> HullsOfDesigns | None:
+def hulls_of_designs(mechanism: Mechanism, varied: Iterable[str], names: Iterable[str]) -> HullsOfDesigns | None:
     """Areas of hulls, ``swept_area``, ``swept_area_of_link jaw``; None where the cycle is no formula of one position
     (see ``cycle.machine.Machine``), or the dimensions move its times."""
     nominal = solve_motion(mechanism, failures="mark")

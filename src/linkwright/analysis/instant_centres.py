@@ -78,9 +78,7 @@ class InstantCentre(Metric):
             remark = (
                 Remark("instant_centre.at", _("at ({x}, {y})", x=shown(x, "length"), y=shown(y, "length")))
                 if finite
-                else Remark(
-                    "instant_centre.infinite", _("at infinity: the two links do not turn against each other")
-                )
+                else Remark("instant_centre.infinite", _("at infinity: the two links do not turn against each other"))
             )
             yield self.value(
                 analysis,

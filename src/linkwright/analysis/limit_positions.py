@@ -42,11 +42,7 @@ class LimitPosition(Metric):
         for output in analysis.outputs:
             for limit in sorted(analysis.limits(output), key=_from_the_largest):
                 yield self.value(
-                    analysis,
-                    f"{output} {limit.kind}",
-                    limit.value,
-                    dimension=output.dimension,
-                    at=limit.input,
+                    analysis, f"{output} {limit.kind}", limit.value, dimension=output.dimension, at=limit.input
                 )
 
 

@@ -99,11 +99,7 @@ _cache: Recent[Mechanism, NumbersOfDesigns | None] = Recent(16)
 
 
 def _numbers(
-    mechanism: Mechanism,
-    addresses: tuple[str, ...],
-    requested: tuple[str, ...],
-    steps: int,
-    asked: Asked | None,
+    mechanism: Mechanism, addresses: tuple[str, ...], requested: tuple[str, ...], steps: int, asked: Asked | None
 ) -> NumbersOfDesigns | None:
     nominal = solve_motion(mechanism, steps=steps, failures="mark")
     forces = any(needs_forces(name, mechanism, asked) for name in requested)

@@ -100,9 +100,7 @@ def pivot(mechanism: Mechanism, output: Output) -> tuple[str, str]:
         joint = mechanism.joints[output.owner]
         return output.owner, next(link for link in joint.joined if link not in mechanism.grounded)
     owner = output.owner if output.kind == "angle" else find_point(mechanism, output.owner)[0]
-    at_frame = [
-        n for n, j in mechanism.joints.items() if owner in j.joined and mechanism.grounded & set(j.joined)
-    ]
+    at_frame = [n for n, j in mechanism.joints.items() if owner in j.joined and mechanism.grounded & set(j.joined)]
     return next(iter(at_frame), _first_joint(mechanism, owner)), owner
 
 

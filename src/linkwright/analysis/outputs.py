@@ -23,9 +23,7 @@ def mechanism_outputs(mechanism: Mechanism) -> tuple[Output, ...]:
     for name, joint in mechanism.joints.items():
         if mechanism.grounded.isdisjoint(joint.joined):
             continue
-        links = [
-            link for link in joint.joined if link not in mechanism.grounded and (name, link) not in driven
-        ]
+        links = [link for link in joint.joined if link not in mechanism.grounded and (name, link) not in driven]
         if joint.coordinate == "turn":
             found |= {Output("angle", link): None for link in links}
         elif joint.coordinate == "slide" and links:
@@ -54,9 +52,7 @@ def turns_fully(motion: Motion, output: Output) -> bool:
     step = angle[-1] - angle[-2] if period else 0.0
     if period and motion.link(output.owner).counted:
         ends = motion.time[0] + np.array([0.0, np.sign(motion.time[1] - motion.time[0]) * period])
-        first, last = Between(motion).evaluate(
-            (row_name("turned_angle", output.owner),), np.array([0, -1]), ends
-        )[0]
+        first, last = Between(motion).evaluate((row_name("turned_angle", output.owner),), np.array([0, -1]), ends)[0]
         return bool(abs(last - first) > np.pi)
     return bool(abs(angle[-1] + step - angle[0]) > np.pi)
 

@@ -24,9 +24,7 @@ class PressureAngle(Metric):
     """Largest angle between the force on the driven point of a dyad and that point's velocity: α = π/2 - μ."""
 
     label = _("largest pressure angle")
-    meaning = _(
-        "Angle between the force on the driven point and its velocity: 90° minus the transmission angle.",
-    )
+    meaning = _("Angle between the force on the driven point and its velocity: 90° minus the transmission angle.")
 
     rank = 2
     dimension = "angle"

@@ -106,18 +106,13 @@ class DeadPoint(Metric):
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         """Those of outputs in their outermost limit positions, where one driver turns steadily through the cycle."""
-        drivers, period = (
-            list(analysis.motion.mechanism.drivers.values()),
-            analysis.motion.positions.period or 0.0,
-        )
+        drivers, period = (list(analysis.motion.mechanism.drivers.values()), analysis.motion.positions.period or 0.0)
         if len(drivers) != 1 or (speed := drivers[0].law.constant_speed) is None:
             return
         within = partial(_within, float(analysis.motion.input[0]), speed * period)
         for output, kind, passed_over in outermost_limits(analysis):
             place = Summary(output.name, f"arg{kind}")
-            yield Number(
-                f"{output} {kind}", (place,), within, analysis.input_dimension, passed_over=passed_over
-            )
+            yield Number(f"{output} {kind}", (place,), within, analysis.input_dimension, passed_over=passed_over)
 
     def values(self, analysis: Analysis) -> Iterator[MetricValue]:
         driver, kind = next(iter(analysis.motion.mechanism.drivers)), analysis.input_dimension
@@ -151,10 +146,7 @@ class DeadPoint(Metric):
     def _of_driver(self, analysis: Analysis) -> Iterator[float]:
         if not analysis.resolver.possible:
             return
-        for time in (
-            *(time for time, _unused in analysis.resolver.edges),
-            *analysis.resolver.changes.tolist(),
-        ):
+        for time in (*(time for time, _unused in analysis.resolver.edges), *analysis.resolver.changes.tolist()):
             yield analysis.resolver.input_at(time)
         for group in dyads(analysis.motion.structure):
             low = analysis.part(smallest(group))

@@ -56,9 +56,7 @@ def ranged(name: str) -> bool:
     return found is not None and found[0].input_ranges
 
 
-def ranges_of_designs(
-    mechanism: Mechanism, varied: Iterable[str], names: Iterable[str]
-) -> RangesOfDesigns | None:
+def ranges_of_designs(mechanism: Mechanism, varied: Iterable[str], names: Iterable[str]) -> RangesOfDesigns | None:
     """Ranges of motion; None where the machine passes its full cycle, dimensions move the inputs, or not one driver
     turns at constant speed and all groups have closed forms."""
     asked, addresses, drivers = tuple(names), tuple(varied), list(mechanism.drivers.values())
@@ -79,12 +77,7 @@ class RangesOfDesigns(MetricsOfDesigns):
     """Ranges of motion; of several stretches the first. Made by :func:`ranges_of_designs`."""
 
     def __init__(
-        self,
-        mechanism: Mechanism,
-        varied: tuple[str, ...],
-        nominal: Motion,
-        names: Iterable[str],
-        analysis: Analysis,
+        self, mechanism: Mechanism, varied: tuple[str, ...], nominal: Motion, names: Iterable[str], analysis: Analysis
     ) -> None:
         self.mechanism, self.varied, self.nominal = mechanism, varied, nominal
         self.kinds = dict.fromkeys(names, "angle")
@@ -144,9 +137,7 @@ class RangesOfDesigns(MetricsOfDesigns):
             times[number, side] = time
         return times, found
 
-    def _value(
-        self, columns: Mapping[str, Floats], design: Indices, end: End, time: Floats
-    ) -> tuple[Floats, Floats]:
+    def _value(self, columns: Mapping[str, Floats], design: Indices, end: End, time: Floats) -> tuple[Floats, Floats]:
         """What is zero at an end, at times, s, and its slope."""
         assert end.group is not None
         k = self._quality.place[end.group]
@@ -191,9 +182,7 @@ class RangesOfDesigns(MetricsOfDesigns):
             if end.group is None:
                 continue
             weight = -sign * self._speed * np.sign(value) / self._value(columns, every, end, time)[1]
-            bars = self._quality.vjp(
-                self._known, at_times(columns, every, time), AT, {end.group: weight[None]}
-            )
+            bars = self._quality.vjp(self._known, at_times(columns, every, time), AT, {end.group: weight[None]})
             slopes += np.stack([bars.get(name, np.zeros(len(every))) for name in by], axis=1)
         value, slopes = np.where(certain, np.abs(value), np.nan), np.where(certain[:, None], slopes, np.nan)
         weights = np.array([sum(each.values()) for each in sums])

@@ -26,9 +26,7 @@ class Singularity(Metric):
     """
 
     label = _("distance from a singular position")
-    meaning = _(
-        "Smallest determinant of a group's closure equations, 1 at best, 0 where the group is singular.",
-    )
+    meaning = _("Smallest determinant of a group's closure equations, 1 at best, 0 where the group is singular.")
 
     dimension = "dimensionless"
     source = "determinant of the closure Jacobian; Gosselin and Angeles, IEEE Trans. Robotics 6(3), 1990"

@@ -42,9 +42,7 @@ class SolvedSummary(Summaries):
             return np.atleast_2d(values * values if squared else values)
 
         more = np.array([each.time for each in self._reversals])
-        self._signals = SignalsOnWays.resolved(
-            ways, read, of, self.asked.wanted(), more, paced=self.asked.even
-        )
+        self._signals = SignalsOnWays.resolved(ways, read, of, self.asked.wanted(), more, paced=self.asked.even)
         self.span = self._signals.stretches.span
 
     @property
@@ -82,9 +80,7 @@ class SolvedSummary(Summaries):
         """Infinite, or undefined where a signal grows to both signs, next to what it cannot pass."""
         found = super().means
         for way in range(self.span.count):
-            steep = [
-                each.limit for each in self._signals.ends if each.way == way and not np.isfinite(each.limit)
-            ]
+            steep = [each.limit for each in self._signals.ends if each.way == way and not np.isfinite(each.limit)]
             if any(map(np.isinf, steep)) or (steep and not self._ways.complete):
                 for mean in found.values():
                     mean[way] = np.sum(steep)

@@ -45,11 +45,7 @@ class Stroke(Metric):
 
     def _swinging(self, analysis: Analysis) -> list[Output]:
         motion = analysis.motion
-        return [
-            o
-            for o in analysis.outputs
-            if o.kind == self.kind and motion.ok.any() and not turns_fully(motion, o)
-        ]
+        return [o for o in analysis.outputs if o.kind == self.kind and motion.ok.any() and not turns_fully(motion, o)]
 
 
 @METRICS.register("swing_angle")

@@ -59,8 +59,7 @@ class HullArea(Metric):
             if far.any():
                 size, sides, exact = np.inf, np.where(far, np.inf, sides), True
             box = {
-                name: shown(side, "length")
-                for name, side in zip(("width", "height"), sides.tolist(), strict=True)
+                name: shown(side, "length") for name, side in zip(("width", "height"), sides.tolist(), strict=True)
             }
             remarks = (Remark("swept_area.box", _("{width} wide, {height} high").format(**box)),)
             yield self.value(analysis, subject, size, exact=exact, remarks=remarks)
@@ -71,9 +70,7 @@ class SweptArea(HullArea):
     """Area of the convex hull of the curves of all points of frame and links, m²: a bound of what they sweep."""
 
     label = _("area needed (convex hull)")
-    meaning = _(
-        "Area of the convex hull of the curves of all points, an upper bound of the swept area.",
-    )
+    meaning = _("Area of the convex hull of the curves of all points, an upper bound of the swept area.")
 
     def swept(self, mechanism: Mechanism) -> dict[str, tuple[str, ...]]:
         return {mechanism.name: points(mechanism)}
@@ -84,9 +81,7 @@ class SweptAreaOfLink(HullArea):
     """Area of the convex hull of the curves of every link's points, m²: a bound of what it sweeps."""
 
     label = _("area needed by a link (convex hull)")
-    meaning = _(
-        "Area of the convex hull of the curves of a link's points, an upper bound of what it sweeps.",
-    )
+    meaning = _("Area of the convex hull of the curves of a link's points, an upper bound of what it sweeps.")
 
     on_request = True
 

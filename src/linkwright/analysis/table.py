@@ -37,10 +37,7 @@ def cells_of_values(
             label, subject, value, unit, at, _unused = rest[0].cells(language)
             more = _("{subject}, {count} more", subject=subject, count=len(rest)).translate(language)
             places = [row.at for row in rest if row.at is not None]
-            yield (
-                (label, more, _between(value, [row.value for row in rest]), unit, _between(at, places), ""),
-                None,
-            )
+            yield ((label, more, _between(value, [row.value for row in rest]), unit, _between(at, places), ""), None)
 
 
 def _between(first: Cell, values: Sequence[float]) -> Cell:
@@ -95,9 +92,7 @@ class MetricsTable(PlotMixin, Tabular, Sequence[MetricValue]):
         for row in sorted(self.rows, key=lambda row: row.metric != "singularity"):
             for remark in row.warnings:
                 subjects_by_text.setdefault(remark.text(language), []).append(in_words(row.subject, language))
-        about = {
-            cause: together(tuple(dict.fromkeys(subjects))) for cause, subjects in subjects_by_text.items()
-        }
+        about = {cause: together(tuple(dict.fromkeys(subjects))) for cause, subjects in subjects_by_text.items()}
         cells_of_values = (
             _("{name}: {cause}", name=in_language(names, language), cause=cause).translate(language)
             for cause, names in about.items()
@@ -161,11 +156,7 @@ class MetricsTable(PlotMixin, Tabular, Sequence[MetricValue]):
     def tables(self, language: str = "en") -> tuple[Table]:
         """The rows, limits and remarks where there are any, and the warnings."""
         if not self.rows:
-            return (
-                Table(
-                    title=self.title, notes=["", _("none of the design numbers applies to this mechanism")]
-                ),
-            )
+            return (Table(title=self.title, notes=["", _("none of the design numbers applies to this mechanism")]),)
         head = (*CELLS, REMARK)
         rows = [[*texts, _remarks(row, language)] for texts, row in cells_of_values(self.rows, language)]
         shown_columns = [i for i in range(len(head)) if i < 5 or any(row[i] for row in rows)]

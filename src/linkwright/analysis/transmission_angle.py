@@ -45,7 +45,7 @@ class TransmissionAngle(Metric):
     label = _("smallest transmission angle")
     meaning = _(
         "Acute angle between coupler and output link (rod and normal of the guide): the "
-        "nearer to 90°, the better the force is passed on.",
+        "nearer to 90°, the better the force is passed on."
     )
 
     rank = 2
@@ -70,9 +70,7 @@ class TransmissionAngleOfStroke(TransmissionAngle):
     """Smallest transmission angle of a dyad on the strokes of its output from its largest value on, and back."""
 
     label = _("smallest transmission angle of the stroke")
-    meaning = _(
-        "Smallest transmission angle while the output moves from one limit position to the next.",
-    )
+    meaning = _("Smallest transmission angle while the output moves from one limit position to the next.")
 
     def suits(self, analysis: Analysis) -> bool:
         return super().suits(analysis) and analysis.complete and bool(_driven_dyads(analysis))
@@ -80,9 +78,7 @@ class TransmissionAngleOfStroke(TransmissionAngle):
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         for group, output in _driven_dyads(analysis):
             for first, last in pairwise([*analysis.limits(output)[:2], analysis.limits(output)[0]]):
-                part = StrokeSummary(
-                    f"transmission_angle {group.name}", "min", output.name, STROKES[first.kind]
-                )
+                part = StrokeSummary(f"transmission_angle {group.name}", "min", output.name, STROKES[first.kind])
                 yield Number(f"{group.name}: {output} {first.kind}→{last.kind}", (part,))
 
 

@@ -75,9 +75,7 @@ class MechanicalAdvantage(VelocityRatio):
     """Smallest output force (torque) per input torque (force) without losses: 1/|velocity ratio|."""
 
     label = _("smallest mechanical advantage")
-    meaning = _(
-        "Output force or torque per input torque or force without losses, where it is smallest.",
-    )
+    meaning = _("Output force or torque per input torque or force without losses, where it is smallest.")
 
     source = "Norton, Design of Machinery, sec. 6.4: power in equals power out"
     better: ClassVar[Better | None] = "higher"

@@ -48,13 +48,7 @@ class Ways:
     """
 
     def __init__(
-        self,
-        resolver: Resolver,
-        course: Course,
-        cuts: Floats,
-        ends: Floats,
-        reach_of_ends: Floats,
-        reached: Floats,
+        self, resolver: Resolver, course: Course, cuts: Floats, ends: Floats, reach_of_ends: Floats, reached: Floats
     ) -> None:
         self.resolver, self.course, self._cuts = resolver, course, cuts
         self.ends, self._reach_of_ends, self._reached = ends, reach_of_ends, reached
@@ -193,9 +187,7 @@ class SignalsOnWays:
         edges, near = ways.ends[:, None], 1e-9 * ways.course.duration
         begin, end = stretches.begin, stretches.begin + stretches.length
         lap = ways.course.duration if ways.course.closed else 0.0
-        behind, before = (
-            np.abs(each - edges) < near for each in (begin, np.stack([end, end - lap])[:, None])
-        )
+        behind, before = (np.abs(each - edges) < near for each in (begin, np.stack([end, end - lap])[:, None]))
         self._side = behind.any(axis=0) - before.any(axis=(0, 1)).astype(float)
         stretch, low, high = stretches.first_pieces(first)
         own = (self._side[stretch] == 0.0) | (low == 0.0)
@@ -222,12 +214,7 @@ class SignalsOnWays:
 
     def _columns(self, stretch: Indices, first: Floats, last: Floats) -> dict[str, Floats]:
         low, high = self.stretches.ends(stretch, first, last)
-        return {
-            LOW: low,
-            HIGH: high,
-            SIDE: self._side[stretch],
-            WAY: self.stretches.design[stretch].astype(float),
-        }
+        return {LOW: low, HIGH: high, SIDE: self._side[stretch], WAY: self.stretches.design[stretch].astype(float)}
 
     def _solved(self, time: Floats) -> Floats:
         """The signals (nodes, signals, pieces) at times of one way, s, in which angles go on from the first one."""

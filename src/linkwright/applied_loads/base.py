@@ -26,16 +26,7 @@ from linkwright.applied_loads.signals import Signals
 from linkwright.applied_loads.site import Mechanism, Site, Wrench
 from linkwright.applied_loads.sizes import OverCycle, Ramp
 from linkwright.core.outputs import Output, RelativeAngle
-from linkwright.fields.base import (
-    REQUIRED,
-    Field,
-    Quantities,
-    Quantity,
-    Schema,
-    Word,
-    file_key,
-    table_schema,
-)
+from linkwright.fields.base import REQUIRED, Field, Quantities, Quantity, Schema, Word, file_key, table_schema
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
 from linkwright.fields.nodes import Scalar as ScalarNode
@@ -162,16 +153,12 @@ class Load:
     @property
     def acts_on(self) -> str | None:
         """The link that it names alone, of several the first."""
-        return next(
-            (value for _unused, each, value in self.fields_with_values() if isinstance(each, LinkName)), None
-        )
+        return next((value for _unused, each, value in self.fields_with_values() if isinstance(each, LinkName)), None)
 
     @property
     def pair(self) -> tuple[str, ...]:
         """The two links between which it acts; none where it names no pair."""
-        return next(
-            (value for _unused, each, value in self.fields_with_values() if isinstance(each, LinkNames)), ()
-        )
+        return next((value for _unused, each, value in self.fields_with_values() if isinstance(each, LinkNames)), ())
 
     @property
     def named_points(self) -> tuple[LinkPoint, ...]:
@@ -201,23 +188,16 @@ class Load:
 
         return dataclasses.replace(
             self,
-            **self._gathered(
-                {name: rebuilt(name, each, part) for name, each, part in self.fields_with_values()}
-            ),
+            **self._gathered({name: rebuilt(name, each, part) for name, each, part in self.fields_with_values()}),
         )
 
     def written(self) -> dict[str, Any]:
         """The load as plain data for a file."""
         usual = {each.name: each.default for each in dataclasses.fields(self)}
         written_keys = (
-            each
-            for each in self.fields_with_values()
-            if each[2] is not None and each[2] != usual.get(each[0])
+            each for each in self.fields_with_values() if each[2] is not None and each[2] != usual.get(each[0])
         )
-        return {
-            "kind": self.kind,
-            **{each.key or name: each.written(value) for name, each, value in written_keys},
-        }
+        return {"kind": self.kind, **{each.key or name: each.written(value) for name, each, value in written_keys}}
 
 
 LOADS: Registry[type[Load]] = Registry(
@@ -229,9 +209,7 @@ LOADS: Registry[type[Load]] = Registry(
 ELSEWHERE = {
     "gravity": _("gravity is a key of the model, not a load: gravity: [0, -9.81 m/s²]"),
     "mass": _("gravity is a key of the model, not a load: gravity: [0, -9.81 m/s²]"),
-    "friction": _(
-        "friction is a key of pins and guides under joints: friction: 0.1, of a pin with pin_radius: 5 mm",
-    ),
+    "friction": _("friction is a key of pins and guides under joints: friction: 0.1, of a pin with pin_radius: 5 mm"),
 }
 
 

@@ -37,9 +37,7 @@ def formula_fault(expression: Expression, signals: Signals, where: Flags, found:
     return _pole_between(expression, columns, signals, where)
 
 
-def _not_finite(
-    expression: Expression, columns: Mapping[str, Floats], signals: Signals, index: int
-) -> Message:
+def _not_finite(expression: Expression, columns: Mapping[str, Floats], signals: Signals, index: int) -> Message:
     where = _("in the only position")
     if signals.mechanism.drivers:
         place = shown(float(signals.input[index]), input_dimension(signals))
@@ -134,8 +132,7 @@ def interval_fault(start: float, end: float, signals: Signals) -> Message | None
         )
     elif length > TURN + NEAR or (length < -TURN - NEAR and signals.heading < 0):
         problem = _(
-            "the phase from {start} to {end} is longer than one turn of the input; use a table "
-            "over the time instead",
+            "the phase from {start} to {end} is longer than one turn of the input; use a table over the time instead",
             code="loads.phase_too_long",
         )
     else:
@@ -143,11 +140,7 @@ def interval_fault(start: float, end: float, signals: Signals) -> Message | None
     return problem.format(start=shown(start, "angle"), end=shown(end, "angle"))
 
 
-_PARTS = {
-    "first": pgettext("loads", "first"),
-    "last": _("last"),
-    "free": _("free"),
-}
+_PARTS = {"first": pgettext("loads", "first"), "last": _("last"), "free": _("free")}
 
 
 def part_fault(output: Output, part: StrokePart, stroke: float) -> Message:

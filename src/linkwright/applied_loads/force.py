@@ -43,14 +43,9 @@ class Force(Load):
         "on", default=None, doc=_("[P, Q]: along the left normal of the ray P→Q")
     )
     along: tuple[str, str] | None = base.ray("on", default=None, doc=_("[P, Q]: along the ray P→Q"))
-    opposes: str | None = base.word(
-        "velocity", default=None, doc=_("velocity: against the velocity of the point")
-    )
+    opposes: str | None = base.word("velocity", default=None, doc=_("velocity: against the velocity of the point"))
     components: tuple[float, float] | None = base.values(
-        "force",
-        names=("x", "y"),
-        default=None,
-        doc=_("[Fx, Fy] in frame axes, instead of direction and magnitude"),
+        "force", names=("x", "y"), default=None, doc=_("[Fx, Fy] in frame axes, instead of direction and magnitude")
     )
     magnitude: Magnitude = base.magnitude("force")
 

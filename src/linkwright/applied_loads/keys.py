@@ -145,9 +145,7 @@ class TableField(_Part):
             "x": [written_quantity(x, value.across) for x in value.x],
             "y": [written_quantity(y, self.dimension) for y in value.y],
         }
-        return (
-            mapping if value.interpolation == "linear" else {**mapping, "interpolation": value.interpolation}
-        )
+        return mapping if value.interpolation == "linear" else {**mapping, "interpolation": value.interpolation}
 
 
 def _fault_of_period(table: Table) -> Message | None:
@@ -180,7 +178,7 @@ class PhaseField(_Part):
                 (_("several forms of a phase") if chosen else _("no form of a phase")),
                 _(
                     "write one of {{input: [a, b]}}, {{moving: OUTPUT, direction: increasing}}, {{of: "
-                    "OUTPUT, from: max, to: min}}",
+                    "OUTPUT, from: max, to: min}}"
                 ),
                 "choice",
             )
@@ -195,9 +193,7 @@ class PhaseField(_Part):
         limits = ("max", "min")
         return {
             "input": {
-                "input": Quantities(
-                    across, count=2, required=True, doc=_("from, to of the input's coordinate")
-                )
+                "input": Quantities(across, count=2, required=True, doc=_("from, to of the input's coordinate"))
             },
             "moving": {
                 "moving": OutputName(required=True, doc=_("an output")),
@@ -232,9 +228,7 @@ def _phase(reader: Reader, node: Node, place: Place, values: Mapping[str, Any]) 
     if "input" in values:
         start, end = values["input"]
         if start == end:
-            reader.finding(
-                node, place, _("the phase begins where it ends"), "range", _("give two different values")
-            )
+            reader.finding(node, place, _("the phase begins where it ends"), "range", _("give two different values"))
             return None
         return InputPhase(start, end, reader.input_dimension())
     if "moving" in values:
@@ -270,9 +264,7 @@ class StrokePartField(Field):
 
     word: PartWord
 
-    def read(
-        self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]
-    ) -> StrokePart | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> StrokePart | None:
         output = siblings.get("of")
         if output is None:
             return None
@@ -287,9 +279,7 @@ class StrokePartField(Field):
     def _amount(self, reader: Reader, node: Node, place: Place, dimension: str) -> Amount | None:
         text = node.text if isinstance(node, Scalar) else ""
         try:
-            found = Amount(
-                float(text if isinstance(node, Scalar) and node.plain else "no number"), share=True
-            )
+            found = Amount(float(text if isinstance(node, Scalar) and node.plain else "no number"), share=True)
         except ValueError:
             way = reader.quantity(node, place, dimension)
             if way is None:

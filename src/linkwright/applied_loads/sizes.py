@@ -157,11 +157,7 @@ class Table(Size):
         Angles count modulo one turn; a table over several full turns repeats after them.
         """
         over = self.over
-        x = (
-            course.output(over)
-            if isinstance(over, Output)
-            else course.named("t" if over == "time" else "input")
-        )
+        x = course.output(over) if isinstance(over, Output) else course.named("t" if over == "time" else "input")
         first, last = course.constant("first"), course.constant("last")
         span = last - first
         if (over.dimension if isinstance(over, Output) else self.across) == "angle" and over != "time":

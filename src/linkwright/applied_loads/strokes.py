@@ -71,10 +71,7 @@ class Stretch:
         return (since >= -slack) & (since <= length + slack), np.clip(gained / self.rise, 0.0, 1.0)
 
 
-_LIMITS = {
-    "max": pgettext("loads", "max"),
-    "min": pgettext("loads", "min"),
-}
+_LIMITS = {"max": pgettext("loads", "max"), "min": pgettext("loads", "min")}
 
 
 def strokes(phase: BetweenLimits, signals: Signals) -> list[Stretch]:
@@ -96,12 +93,7 @@ def strokes(phase: BetweenLimits, signals: Signals) -> list[Stretch]:
         return found
     dimension = input_dimension(signals)
     places = tuple(
-        _(
-            "{kind} at input {input}",
-            kind=_LIMITS[each.kind],
-            input=shown(each.input, dimension),
-        )
-        for each in extreme
+        _("{kind} at input {input}", kind=_LIMITS[each.kind], input=shown(each.input, dimension)) for each in extreme
     )
     ends = {name: _LIMITS[kind] for name, kind in (("start", phase.start), ("end", phase.end))}
     raise LinkwrightError(
@@ -122,9 +114,7 @@ def outermost(limits: Sequence[Limit]) -> list[Limit]:
         "min": min((each.value for each in limits if each.kind == "min"), default=-np.inf) + slack,
     }
     return [
-        each
-        for each in limits
-        if (each.value >= best["max"] if each.kind == "max" else each.value <= best["min"])
+        each for each in limits if (each.value >= best["max"] if each.kind == "max" else each.value <= best["min"])
     ]
 
 

@@ -29,9 +29,7 @@ class Torque(Load):
 
     exactly_one: ClassVar[tuple[tuple[str, ...], ...]] = (("magnitude", "ramp", "table"),)
     on: str = base.link(moving=True, doc=_("the link on which the torque acts"))
-    against: str = base.link(
-        default="frame", doc=_("the link that takes the opposite torque (default: frame)")
-    )
+    against: str = base.link(default="frame", doc=_("the link that takes the opposite torque (default: frame)"))
     opposes: str | None = base.word(
         "velocity", default=None, doc=_("velocity: against the rotation of on relative to against")
     )

@@ -26,9 +26,7 @@ class TorsionSpring(Load):
 
     links: tuple[str, str] = base.links(doc=_("[a, b]: the two links between which it acts"))
     stiffness: float = base.quantity("torsional_stiffness", minimum=0, doc=_("torque per angle"))
-    free_angle: float = base.quantity(
-        "angle", default=0.0, doc=_("angle of b against a without twist (default 0)")
-    )
+    free_angle: float = base.quantity("angle", default=0.0, doc=_("angle of b against a without twist (default 0)"))
     preload: float = base.quantity("torque", default=0.0, doc=_("torque at the free angle (default 0)"))
 
     @property

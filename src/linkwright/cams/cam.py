@@ -84,18 +84,14 @@ class Cam(CamShape):
                 )
             )
         if follower.oscillating and (
-            not (follower.pivot_distance or 0) > 0
-            or (follower.kind != "flat" and not (follower.arm or 0) > 0)
+            not (follower.pivot_distance or 0) > 0 or (follower.kind != "flat" and not (follower.arm or 0) > 0)
         ):
             found.append(
                 fault(
                     "no_arm",
                     "follower",
                     _("an oscillating follower needs its pivot and its arm"),
-                    _(
-                        "add pivot_distance: 120 mm and arm: 100 mm to the follower (a flat face needs no "
-                        "arm)",
-                    ),
+                    _("add pivot_distance: 120 mm and arm: 100 mm to the follower (a flat face needs no arm)"),
                 )
             )
         if self.barrel_radius is not None and (follower.oscillating or follower.kind != "roller"):
@@ -161,11 +157,9 @@ class Cam(CamShape):
                             "base_radius",
                             _(
                                 "from {start}° to {end}° the flat face cuts away {depth} mm of the profile it should "
-                                "touch",
+                                "touch"
                             ),
-                            _(
-                                "make the base circle larger by more than {more} mm, or the program smoother there"
-                            ),
+                            _("make the base circle larger by more than {more} mm, or the program smoother there"),
                             **places,
                             depth=depth,
                             more=1e3 * more,
@@ -181,11 +175,11 @@ class Cam(CamShape):
                         key,
                         _(
                             "from {start}° to {end}° the roller of {roller} mm cuts away {depth} mm of the "
-                            "profile it should touch: the pitch curve bends there with a radius of {radius} mm",
+                            "profile it should touch: the pitch curve bends there with a radius of {radius} mm"
                         ),
                         _(
                             "take a roller of less than {radius} mm or a larger base circle, or a longer or "
-                            "smoother rise there",
+                            "smoother rise there"
                         ),
                         **places,
                         depth=depth,
@@ -231,12 +225,10 @@ class Cam(CamShape):
             fault(
                 "contact_lost",
                 "spring",
-                _(
-                    "the contact is lost at {place}°: {missing} {unit} are missing to hold the follower down",
-                ),
+                _("the contact is lost at {place}°: {missing} {unit} are missing to hold the follower down"),
                 _(
                     "give a preload larger by {missing} {unit}, a stiffer spring, or a lower speed; "
-                    "spring: {{}} chooses one",
+                    "spring: {{}} chooses one"
                 ),
                 **values,
                 unit=unit,

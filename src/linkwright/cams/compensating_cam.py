@@ -150,12 +150,7 @@ def _cam(machine: Mechanism, name: str) -> CamJoint:
         )
     if name not in cams and (name or len(cams) > 1):
         raise RequestError(
-            _(
-                'which cam? "{name}" is none{hint}',
-                code="cams.which_cam_joint",
-                name=name,
-                hint=offered(name, cams),
-            )
+            _('which cam? "{name}" is none{hint}', code="cams.which_cam_joint", name=name, hint=offered(name, cams))
         )
     return cams[name] if name else next(iter(cams.values()))
 
@@ -185,10 +180,7 @@ class _Search:
         """The cam for a zone, or for the best one that is so long."""
         if (zone is None) == (span is None):
             raise RequestError(
-                _(
-                    "give either a zone, two values of the input, or how long it is to be",
-                    code="cams.zone_or_span",
-                )
+                _("give either a zone, two values of the input, or how long it is to be", code="cams.zone_or_span")
             )
         first, last = self._between(zone) if zone is not None else self._quietest(abs(span or 0.0))
         inside = slice(first, last + 1)
@@ -235,10 +227,7 @@ class _Search:
         """The positions at the ends of a zone of inputs, the first of both turns."""
         if not all(map(math.isfinite, zone)):
             raise RequestError(
-                _(
-                    "give either a zone, two values of the input, or how long it is to be",
-                    code="cams.zone_or_span",
-                )
+                _("give either a zone, two values of the input, or how long it is to be", code="cams.zone_or_span")
             )
         low, high = sorted(zone)
         inside = np.flatnonzero((self.input >= low - 1e-9) & (self.input <= high + 1e-9))

@@ -25,12 +25,7 @@ BEYOND_ANGLES = _(
 
 
 def compensating_lift(
-    angles: ArrayLike,
-    wanted: ArrayLike,
-    zone: tuple[float, float],
-    *,
-    places: int = _PLACES,
-    beyond: float = BEYOND,
+    angles: ArrayLike, wanted: ArrayLike, zone: tuple[float, float], *, places: int = _PLACES, beyond: float = BEYOND
 ) -> tuple[Floats, Floats]:
     """Angles (k,) of a turn of the cam (rad) and lifts (k,) that are as wanted in the zone and return smoothly.
 
@@ -48,8 +43,7 @@ def compensating_lift(
     if x.ndim != 1 or x.shape != y.shape or len(x) < 12 or not (np.diff(x) > 0).all():
         raise RequestError(
             _(
-                "angles and wanted lifts do not fit: give as many of both, twelve or more, the "
-                "angles increasing",
+                "angles and wanted lifts do not fit: give as many of both, twelve or more, the angles increasing",
                 code="cams.compensation_points",
             )
         )
@@ -58,10 +52,7 @@ def compensating_lift(
     near = slice(max(int(np.searchsorted(x, low)) - 8, 0), int(np.searchsorted(x, high)) + 8)
     spline = make_interp_spline(x[near], y[near], k=7 if len(x[near]) > 16 else 5)
     away = _Return(
-        [float(spline(high, nu=k)) for k in range(4)],
-        [float(spline(low, nu=k)) for k in range(4)],
-        high,
-        low + _TURN,
+        [float(spline(high, nu=k)) for k in range(4)], [float(spline(low, nu=k)) for k in range(4)], high, low + _TURN
     )
     at = low + _TURN * np.arange(places) / places
     lift = np.where(at <= high, spline(np.minimum(at, high)), away(at))

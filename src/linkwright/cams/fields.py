@@ -23,12 +23,8 @@ from linkwright.words import _
 class CamChoice:
     """What may be chosen: offsets between two bounds (m), roller radii of a list (m)."""
 
-    offset: tuple[float, float] | None = file_key(
-        Quantities("length", count=2, doc="offsets from and to"), None
-    )
-    roller_radii: tuple[float, ...] = file_key(
-        Quantities("length", doc="radii of rollers that can be had"), ()
-    )
+    offset: tuple[float, float] | None = file_key(Quantities("length", count=2, doc="offsets from and to"), None)
+    roller_radii: tuple[float, ...] = file_key(Quantities("length", doc="radii of rollers that can be had"), ())
 
 
 @dataclass(frozen=True)
@@ -44,13 +40,9 @@ def _settled(each: Field, lift: str) -> Field:
     """The field of a follower's own lift."""
     if isinstance(each, LiftQuantity):
         dimension = each.turning if lift == "angle" else each.straight
-        return Quantity(
-            dimension, minimum=each.minimum, above=each.above, required=each.required, doc=each.doc
-        )
+        return Quantity(dimension, minimum=each.minimum, above=each.above, required=each.required, doc=each.doc)
     if isinstance(each, Listed) and isinstance(each.item, Table):
-        return Listed(
-            Table({key: _settled(one, lift) for key, one in each.item.fields.items()}), doc=each.doc
-        )
+        return Listed(Table({key: _settled(one, lift) for key, one in each.item.fields.items()}), doc=each.doc)
     return each
 
 
@@ -58,26 +50,30 @@ _LIFT = ("length", "angle")
 _FIND: Mapping[str, Field] = {
     "minimize": Word(tuple(ORDERS), required=True, doc="whose peak is minimized"),
     "points": Listed(
-        Table({
-            "at": Quantity("angle", required=True, doc="angle of the cam"),
-            "lift": LiftQuantity(*_LIFT, required=True, doc="lift there"),
-        }),
+        Table(
+            {
+                "at": Quantity("angle", required=True, doc="angle of the cam"),
+                "lift": LiftQuantity(*_LIFT, required=True, doc="lift there"),
+            }
+        ),
         doc="points that the motion goes through",
     ),
     "windows": Listed(
-        Table({
-            "from": Quantity("angle", required=True, doc="where it begins"),
-            "to": Quantity("angle", required=True, doc="where it ends"),
-            "least": LiftQuantity(*_LIFT, doc="smallest lift in it"),
-            "most": LiftQuantity(*_LIFT, doc="largest lift in it"),
-            "dwell": LiftQuantity(*_LIFT, doc="the lift at which the follower rests in it"),
-        }),
+        Table(
+            {
+                "from": Quantity("angle", required=True, doc="where it begins"),
+                "to": Quantity("angle", required=True, doc="where it ends"),
+                "least": LiftQuantity(*_LIFT, doc="smallest lift in it"),
+                "most": LiftQuantity(*_LIFT, doc="largest lift in it"),
+                "dwell": LiftQuantity(*_LIFT, doc="the lift at which the follower rests in it"),
+            }
+        ),
         doc="ranges of the angle in which the lift is bounded",
     ),
     "velocity": LiftQuantity(RATES["length", "angle"][0], RATES["angle", "angle"][0], minimum=0.0, doc="limit"),
     "acceleration": LiftQuantity(RATES["length", "angle"][1], RATES["angle", "angle"][1], minimum=0.0, doc="limit"),
     "pieces": Integer(12, doc="pieces of the spline; default 90"),
-}  # fmt: skip
+}
 
 
 @dataclass(frozen=True)
@@ -96,9 +92,7 @@ class CamLimits:
     curvature_radius: float | None = file_key(
         Quantity("length", minimum=0.0, doc="smallest radius of curvature of the profile"), None
     )
-    contact_pressure: float | None = file_key(
-        Quantity("pressure", above=0.0, doc="largest Hertzian pressure"), None
-    )
+    contact_pressure: float | None = file_key(Quantity("pressure", above=0.0, doc="largest Hertzian pressure"), None)
     contact_force: float = file_key(
         LiftQuantity("force", "torque", minimum=0.0, doc="minimum effort that the spring leaves"), 0.0
     )
@@ -159,7 +153,7 @@ CAM_FIELDS: Mapping[str, Field] = {
     "limits": WithLift.of(CamLimits, doc="what the cam must keep"),
     "choose": Table.of(CamChoice, doc="what may be chosen with the base circle"),
     "cutter_radius": Quantity("length", above=0.0, doc="radius of the milling cutter"),
-}  # fmt: skip
+}
 
 
 def program_of(values: Mapping[str, Any]) -> dict[str, Any]:
@@ -175,10 +169,7 @@ def program_of(values: Mapping[str, Any]) -> dict[str, Any]:
                 fault(
                     "inertia_or_mass",
                     "inertia",
-                    _(
-                        "both a mass and a moment of inertia, or the moment of inertia of a translating "
-                        "follower",
-                    ),
+                    _("both a mass and a moment of inertia, or the moment of inertia of a translating follower"),
                     _("give mass: for a translating follower, inertia: for an oscillating one"),
                 )
             ]

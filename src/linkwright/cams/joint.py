@@ -50,15 +50,15 @@ def cam_of(mechanism: Mechanism, name: str, *, speed: float = 0.0) -> Cam:
     geometry = joint.geometry(mechanism)
     return Cam(
         program=joint.program or TabledLift(joint.lift),
-        follower=_follower(joint, mechanism) if joint.side else Follower(
-            joint.touch, roller_radius=joint.roller_radius, offset=-geometry.aside
-        ),
+        follower=_follower(joint, mechanism)
+        if joint.side
+        else Follower(joint.touch, roller_radius=joint.roller_radius, offset=-geometry.aside),
         base_radius=joint.base_radius,
         turn=joint.sense,
         closure="groove" if joint.closure == "groove" and joint.touch == "roller" else "force",
         loading=CamLoading(speed=abs(speed)),
         name=name,
-    )  # fmt: skip
+    )
 
 
 def _follower(joint: CamJoint, mechanism: Mechanism) -> Follower:

@@ -31,16 +31,12 @@ class CamSpring:
 class CamMaterial:
     """Young's moduli (Pa) and Poisson's ratios of cam and follower."""
 
-    modulus: float = file_key(
-        Quantity("pressure", above=0.0, required=True, doc="Young's modulus of the cam"), 210e9
-    )
+    modulus: float = file_key(Quantity("pressure", above=0.0, required=True, doc="Young's modulus of the cam"), 210e9)
     poisson: float = file_key(Quantity("dimensionless", minimum=0.0, doc="Poisson's ratio, 0.3"), 0.3)
     follower_modulus: float | None = file_key(
         Quantity("pressure", above=0.0, doc="of the follower (default: the same)"), None
     )
-    follower_poisson: float | None = file_key(
-        Quantity("dimensionless", minimum=0.0, doc="of the follower"), None
-    )
+    follower_poisson: float | None = file_key(Quantity("dimensionless", minimum=0.0, doc="of the follower"), None)
 
     @property
     def contact_modulus(self) -> float:
@@ -146,7 +142,5 @@ def contact_pressure(
 ) -> Floats:
     """Hertz's pressure (Pa) of the line contact: √(F E*/(π b R)), 1/R of profile and roller; 0 without force."""
     curvature = contact.curvature + (1.0 / follower.roller_radius if follower.kind == "roller" else 0.0)
-    inside = (
-        np.maximum(force, 0.0) * material.contact_modulus * np.maximum(curvature, 0.0) / (math.pi * width)
-    )
+    inside = np.maximum(force, 0.0) * material.contact_modulus * np.maximum(curvature, 0.0) / (math.pi * width)
     return np.asarray(np.sqrt(inside))

@@ -28,13 +28,7 @@ RATES = {
 
 def blocks(design: CamDesign, say: Translate) -> list[Block]:
     """Sizes, motion, shape, forces and vibration, as far as they apply."""
-    makers: list[Callable[[CamDesign, Translate], Block | None]] = [
-        _sizes,
-        _motion,
-        _shape,
-        _forces,
-        _vibration,
-    ]
+    makers: list[Callable[[CamDesign, Translate], Block | None]] = [_sizes, _motion, _shape, _forces, _vibration]
     return [block for make in makers if (block := make(design, say)) is not None]
 
 
@@ -66,9 +60,7 @@ def _sizes(design: CamDesign, say: Translate) -> Block:
                 design.face[1] - design.face[0],
                 "length",
                 note=_(
-                    "from {low} to {high}",
-                    low=shown(design.face[0], "length"),
-                    high=shown(design.face[1], "length"),
+                    "from {low} to {high}", low=shown(design.face[0], "length"), high=shown(design.face[1], "length")
                 ),
             )
         )
@@ -83,14 +75,7 @@ def _motion(design: CamDesign, say: Translate) -> Block:
         high, low = program.extreme(order, "max"), program.extreme(order, "min")
         for extreme, word in ((high, "largest"), (low, "smallest")):
             if speed:
-                rows.append(
-                    Row(
-                        f"{word}_{key}",
-                        extreme.value * speed**order,
-                        kinds[order],
-                        note=at(extreme.place),
-                    )
-                )
+                rows.append(Row(f"{word}_{key}", extreme.value * speed**order, kinds[order], note=at(extreme.place)))
             else:
                 unit = ("rad" if kinds[0] == "angle" else "m") + ("/rad", "/rad²")[order - 1]
                 label = f"{say(LABELS[f'{word}_{key}'])} ({unit})"
@@ -111,9 +96,7 @@ def _remarks(design: CamDesign, say: Translate) -> list[Message]:
     for order, jumps in zip((2, 3), remarks, strict=True):
         places = [shown(each, "angle") for each in program.places_of_jumps(order)]
         if places:
-            found.append(
-                jumps.format(places=", ".join([*places[:MANY], *(["…"] if len(places) > MANY else [])]))
-            )
+            found.append(jumps.format(places=", ".join([*places[:MANY], *(["…"] if len(places) > MANY else [])])))
     return found
 
 
@@ -145,11 +128,7 @@ def _broken_limits(design: CamDesign) -> list[Message]:
                 )
             )
     smallest = design.smallest_radius
-    if (
-        limits.curvature_radius
-        and smallest is not None
-        and smallest.value < limits.curvature_radius * (1 - 1e-6)
-    ):
+    if limits.curvature_radius and smallest is not None and smallest.value < limits.curvature_radius * (1 - 1e-6):
         found.append(
             _(
                 "The radius of {radius} {at} is below its limit of {limit}.",
@@ -159,11 +138,7 @@ def _broken_limits(design: CamDesign) -> list[Message]:
             )
         )
     pressure = design.largest_pressure
-    if (
-        limits.contact_pressure
-        and pressure is not None
-        and pressure.value > limits.contact_pressure * (1 + 1e-6)
-    ):
+    if limits.contact_pressure and pressure is not None and pressure.value > limits.contact_pressure * (1 + 1e-6):
         found.append(
             _(
                 "The contact pressure of {pressure} {at} is above its limit of {limit}.",
@@ -182,9 +157,7 @@ def _forces(design: CamDesign, say: Translate) -> Block | None:
     rows, remarks = [], _weak_spring(design)
     spring = design.loading.spring
     if spring.preload is not None or spring.stiffness is not None:
-        rows.append(
-            Row("stiffness", spring.stiffness or 0.0, "torsional_stiffness" if turning else "stiffness")
-        )
+        rows.append(Row("stiffness", spring.stiffness or 0.0, "torsional_stiffness" if turning else "stiffness"))
         rows.append(Row("preload", spring.preload or 0.0, "torque" if turning else "force"))
     for key, extreme, dimension in (
         ("contact_force", design.extreme_force, "force"),
@@ -249,15 +222,15 @@ def steps(design: CamDesign, say: Translate) -> list[Step]:
         first.put("r_b", "", base, "length")
     elif follower.oscillating:
         of = {
-            "c": (follower.pivot_distance or 0.0, "length"), "l": (follower.arm or 0.0, "length"),
-            "r_b": (base, "length"), "r_r": (follower.roller_radius, "length"),
-        }  # fmt: skip
+            "c": (follower.pivot_distance or 0.0, "length"),
+            "l": (follower.arm or 0.0, "length"),
+            "r_b": (base, "length"),
+            "r_r": (follower.roller_radius, "length"),
+        }
         formula = "arccos((c² + l² − (r_b + r_r)²)/(2·c·l))"
         first.put("ψ₀", formula, follower.start_angle(base) or 0.0, "angle", of=of)
     else:
-        of = {
-            "r_b": (base, "length"), "r_r": (follower.roller_radius, "length"), "e": (follower.offset, "length"),
-        }  # fmt: skip
+        of = {"r_b": (base, "length"), "r_r": (follower.roller_radius, "length"), "e": (follower.offset, "length")}
         first.put("d", "√((r_b + r_r)² − e²)", follower.start_height(base) or 0.0, "length", of=of)
     second = Step("2", say(_("Pressure angle")))
     steepest = sorted((design.pressure_angle_rise, design.pressure_angle_fall), key=lambda each: each.place)

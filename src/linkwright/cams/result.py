@@ -69,9 +69,7 @@ LABELS: Mapping[str, Message] = {
 }
 
 
-NO_FOLLOWER = _(
-    "the vibration needs elasticity and mass of the follower; give both", code="cams.no_elasticity"
-)
+NO_FOLLOWER = _("the vibration needs elasticity and mass of the follower; give both", code="cams.no_elasticity")
 
 
 @dataclass(frozen=True, repr=False)
@@ -149,9 +147,7 @@ class CamDesign(Result):
     @cached_property
     def smallest_radius(self) -> Extreme | None:
         """The profile's smallest radius of curvature where it is convex (m), over all walls; None without any."""
-        found = [
-            self._extreme(lambda phi, w=wall: w.contact(phi).curvature, "max") for wall in self.cam.walls
-        ]
+        found = [self._extreme(lambda phi, w=wall: w.contact(phi).curvature, "max") for wall in self.cam.walls]
         sharpest = max(found, key=lambda each: each.value)
         return Extreme(sharpest.place, 1.0 / sharpest.value) if sharpest.value > 0 else None
 
@@ -169,9 +165,7 @@ class CamDesign(Result):
     @property
     def minimum_growth(self) -> float:
         """The smallest growth of the walls along the way, below zero where a profile folds back."""
-        return min(
-            self._extreme(lambda phi, w=wall: w.contact(phi).growth, "min").value for wall in self.cam.walls
-        )
+        return min(self._extreme(lambda phi, w=wall: w.contact(phi).growth, "min").value for wall in self.cam.walls)
 
     @property
     def size(self) -> float:
@@ -291,8 +285,7 @@ class CamDesign(Result):
         if hollow * radius > 1 + 1e-9:
             raise RequestError(
                 _(
-                    "a cutter of {radius} mm does not fit into the hollow of the profile; take at most "
-                    "{most} mm",
+                    "a cutter of {radius} mm does not fit into the hollow of the profile; take at most {most} mm",
                     code="cams.cutter_large",
                     radius=number(radius, "length"),
                     most=f"{1e3 / hollow:.6g}",
@@ -373,10 +366,7 @@ class CamDesign(Result):
             raise RequestError(NO_FOLLOWER)
         if not isinstance(self.cam.program, MotionProgram):
             raise RequestError(
-                _(
-                    "a program that was found has no single rises; take its steady deviation",
-                    code="cams.no_segments",
-                )
+                _("a program that was found has no single rises; take its steady deviation", code="cams.no_segments")
             )
         return residual_amplitude(self.cam.program, self.own_frequency, np.asarray(speeds, dtype=float))
 
@@ -385,9 +375,7 @@ class CamDesign(Result):
         if self.cam.elasticity is None or not self.loading.mass:
             raise RequestError(NO_FOLLOWER)
         damping = self.cam.elasticity.damping_ratio
-        return steady_deviation(
-            self.cam.program, self.own_frequency, damping, np.asarray(speeds, dtype=float)
-        )
+        return steady_deviation(self.cam.program, self.own_frequency, damping, np.asarray(speeds, dtype=float))
 
     @property
     def own_frequency(self) -> float:

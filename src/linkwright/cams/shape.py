@@ -118,12 +118,9 @@ class CamShape(Problem):
                     key,
                     _(
                         "with an offset of {offset} mm and a base circle of {radius} mm the follower does "
-                        "not reach the cam at every lift",
+                        "not reach the cam at every lift"
                     ),
-                    _(
-                        "take a smaller offset or a larger base circle, or lifts that do not go below the "
-                        "base circle",
-                    ),
+                    _("take a smaller offset or a larger base circle, or lifts that do not go below the base circle"),
                     offset=1e3 * follower.offset,
                     radius=1e3 * radius,
                 )
@@ -134,23 +131,15 @@ class CamShape(Problem):
             return fault(
                 "arm_reach",
                 key,
-                _(
-                    "with a base circle of {radius} mm the oscillating follower does not reach the cam "
-                    "at every lift",
-                ),
-                _(
-                    "change arm, pivot distance or base circle so that the triangle of centre, pivot and "
-                    "arm closes",
-                ),
+                _("with a base circle of {radius} mm the oscillating follower does not reach the cam at every lift"),
+                _("change arm, pivot distance or base circle so that the triangle of centre, pivot and arm closes"),
                 radius=1e3 * radius,
             )
         if follower.kind == "flat" and self.program.fastest >= 1:
             return fault(
                 "too_fast",
                 "program",
-                _(
-                    "the flat face turns {rate} times as fast as the cam at its fastest: nothing envelops it",
-                ),
+                _("the flat face turns {rate} times as fast as the cam at its fastest: nothing envelops it"),
                 _("let it rise less or over a larger angle"),
                 rate=self.program.fastest,
             )

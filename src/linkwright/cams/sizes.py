@@ -194,9 +194,7 @@ def _angles_within(cam: CamShape, phi: Floats, angle: Floats) -> bool:
     rise, fall = cam.limits.angles
     rate = cam.program.curves(phi)[1]
     moving = 1e-9 * float(np.abs(rate).max())
-    return not bool(
-        (np.abs(angle[rate > moving]) > rise).any() or (np.abs(angle[rate < -moving]) > fall).any()
-    )
+    return not bool((np.abs(angle[rate > moving]) > rise).any() or (np.abs(angle[rate < -moving]) > fall).any())
 
 
 def _places(program: Program, looks: int) -> Floats:

@@ -80,9 +80,9 @@ class _Search:
             self.psi = self.phi
         else:
             half = self.period / 2
-            self.psi = np.concatenate([
-                self.phi[self.phi > half] - self.period, self.phi, self.phi[self.phi < half] + self.period
-            ])  # fmt: skip
+            self.psi = np.concatenate(
+                [self.phi[self.phi > half] - self.period, self.phi, self.phi[self.phi < half] + self.period]
+            )
         points = curve.contact(self.phi).point
         self.size = float(np.ptp(points.real) + np.ptp(points.imag))
         self.slack = _DEEP * self.size

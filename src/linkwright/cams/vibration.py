@@ -75,19 +75,14 @@ def _steady(program: Program, ratio: Floats, damping_ratio: float, count: int) -
     start = np.linalg.solve(system_matrix, left[:, :, None])[:, :, 0]
     start[resonant] = 0.0
     passed = over_a_turn(start)
-    found = np.array([
-        abs(largest_between(edges, passed[:, k, 0], passed[:, k, 1])[1]) for k in range(len(ratio))
-    ])  # fmt: skip
+    found = np.array([abs(largest_between(edges, passed[:, k, 0], passed[:, k, 1])[1]) for k in range(len(ratio))])
     grows = resonant & (np.abs(left[:, 0]) + np.abs(left[:, 1]) / ratio > 1e-9 * found)
     return np.where(grows, math.inf, found)
 
 
 def _step(state: Floats, length: float) -> tuple[Floats, Floats]:
     """What a step makes of the state, (n, 2, 2), and of the acceleration at its Gauss points, (n, 2, points)."""
-    driven = [
-        _exponential(state, length * (1 - at))[:, :, 1] * length * w
-        for at, w in zip(_AT, _SHARE, strict=True)
-    ]
+    driven = [_exponential(state, length * (1 - at))[:, :, 1] * length * w for at, w in zip(_AT, _SHARE, strict=True)]
     return _exponential(state, length), np.stack(driven, axis=2)
 
 

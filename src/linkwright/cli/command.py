@@ -51,9 +51,7 @@ class Command(click.Command):
         except click.UsageError as error:
             raise usage_error(error, self, ctx.command_path) from None
         typed = [
-            each
-            for each in self.params
-            if ctx.get_parameter_source(each.name or "") is ParameterSource.COMMANDLINE
+            each for each in self.params if ctx.get_parameter_source(each.name or "") is ParameterSource.COMMANDLINE
         ]
         for each in self.params:
             if isinstance(each, Option) and each.multiple:

@@ -44,11 +44,7 @@ def _node(reader: Reader, key: str, field: Field, words: str | list[str]) -> Nod
         if not (sign and name and value) and text.strip():
             message = _('"{text}" is no setting', text=text)
             reader.error(
-                None,
-                key,
-                message,
-                _("write NAME=VALUE, such as crank.length=80..120mm or flywheel=2"),
-                "syntax",
+                None, key, message, _("write NAME=VALUE, such as crank.length=80..120mm or flywheel=2"), "syntax"
             )
         elif name in entries:
             message = _("{name} is given twice", name=name)

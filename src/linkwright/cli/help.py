@@ -25,8 +25,11 @@ EXIT_CODES = _(
 
 def program_help(group: click.Group, ctx: click.Context) -> str:
     """All commands in one line each, and the options of all commands."""
-    names = [(name, each.get_short_help_str()) for name in group.list_commands(ctx)
-             if (each := group.get_command(ctx, name))]  # fmt: skip
+    names = [
+        (name, each.get_short_help_str())
+        for name in group.list_commands(ctx)
+        if (each := group.get_command(ctx, name))
+    ]
     return _joined(
         ctx,
         [
@@ -44,11 +47,10 @@ def command_help(ctx: click.Context, description: str, examples: str) -> str:
     """Usage, description, arguments, options and examples of a command."""
     params = ctx.command.params
     arguments = [each for each in params if isinstance(each, click.Argument)]
-    needed = [f"{each.opts[0]} {_metavar(each)}" for each in params
-              if isinstance(each, click.Option) and each.required]  # fmt: skip
-    usage = " ".join(
-        [ctx.command_path, *needed, "[options]", *(each.make_metavar(ctx) for each in arguments)]
-    )
+    needed = [
+        f"{each.opts[0]} {_metavar(each)}" for each in params if isinstance(each, click.Option) and each.required
+    ]
+    usage = " ".join([ctx.command_path, *needed, "[options]", *(each.make_metavar(ctx) for each in arguments)])
     return _joined(
         ctx,
         [
@@ -84,9 +86,7 @@ def _section(title: Message, body: str | list[tuple[str, str]], ctx: click.Conte
     if isinstance(body, str):
         lines = in_language(body, language).split("\n")
     else:
-        console = Console(
-            file=StringIO(), width=get_terminal_size().columns - 2, color_system=None, emoji=False
-        )
+        console = Console(file=StringIO(), width=get_terminal_size().columns - 2, color_system=None, emoji=False)
         with console.capture() as found:
             console.print(grid([[name, in_language(text, language)] for name, text in body], "<<"))
         lines = found.get().splitlines()

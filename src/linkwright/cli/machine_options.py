@@ -11,12 +11,9 @@ NOTHING_GIVEN = _(
     "name a model file, or give a torque diagram with --areas or --torque; see linkwright machine --help",
     code="machine.nothing_given",
 )
-OUTPUT_NEEDS_FILE = _(
-    "--output writes the cycle of a mechanism; name a model file", code="machine.output_needs_file"
-)
+OUTPUT_NEEDS_FILE = _("--output writes the cycle of a mechanism; name a model file", code="machine.output_needs_file")
 NOT_WITH_FILE = _(
-    "{option} describes a torque diagram; it cannot be used together with a model file",
-    code="machine.not_with_file",
+    "{option} describes a torque diagram; it cannot be used together with a model file", code="machine.not_with_file"
 )
 NO_SCALE = _('--areas needs the scales of the diagram: --scale "5 N·m/mm, 1 deg/mm"', code="machine.no_scale")
 MASS_AND_GYRATION = _(

@@ -100,11 +100,7 @@ def option(
         name,
         *others,
         cls=Option,
-        **{"multiple": True, "initial": default}
-        if several
-        else {}
-        if default is None
-        else {"default": default},
+        **{"multiple": True, "initial": default} if several else {} if default is None else {"default": default},
         metavar=metavar or "|".join(choices),
         field=of,
         help=help,
@@ -192,9 +188,7 @@ cluster = option(
     "ADDRESS",
     help=_("address of a Dask scheduler, such as tcp://host:8786 (extra cluster); else threads here"),
 )
-state = option(
-    "--state", "FILE", help=_("store finished parts in this file, and go on from it where it exists")
-)
+state = option("--state", "FILE", help=_("store finished parts in this file, and go on from it where it exists"))
 positions = together(
     option(
         "--at",

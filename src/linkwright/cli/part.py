@@ -6,18 +6,7 @@ from typing import TYPE_CHECKING
 
 from linkwright.cli.command import Command, command
 from linkwright.cli.errors import UsageError
-from linkwright.cli.options import (
-    PICTURES,
-    RESULTS,
-    Options,
-    argument,
-    flag,
-    fonts,
-    force,
-    option,
-    output,
-    together,
-)
+from linkwright.cli.options import PICTURES, RESULTS, Options, argument, flag, fonts, force, option, output, together
 from linkwright.cli.session import Session
 from linkwright.fields.tables import Integer
 from linkwright.words import Message, _

@@ -46,8 +46,7 @@ arrows = together(
         several=True,
         optional=True,
         help=_(
-            "loads and forces in these joints (B: on its last link, rocker.B: on that link); in "
-            "all without names"
+            "loads and forces in these joints (B: on its last link, rocker.B: on that link); in all without names"
         ),
     ),
     flag("--static", help=_("forces without inertia")),
@@ -62,9 +61,7 @@ def paths(help: Message) -> Decorator[Any]:
 
 def picture_file(endings: Sequence[str], help: Message) -> Decorator[Any]:
     """Where the picture goes, how large, and in which letters."""
-    width = option(
-        "--width", "PIXELS", of=Integer(1), help=_("pixels across (SVG and PDF: of the longer side)")
-    )
+    width = option("--width", "PIXELS", of=Integer(1), help=_("pixels across (SVG and PDF: of the longer side)"))
     return together(output(endings, help, required=True), force, width, fonts)
 
 
@@ -145,9 +142,7 @@ def cycle(mechanism: Mechanism, steps: int, session: Session) -> Motion:
     from linkwright.kinematics.solve import solve_motion
 
     if steps > MOST:
-        raise UsageError(
-            _("--steps is {steps}; take {most} at most", code="solve.too_many", steps=steps, most=MOST)
-        )
+        raise UsageError(_("--steps is {steps}; take {most} at most", code="solve.too_many", steps=steps, most=MOST))
     motion = solve_motion(mechanism, steps=steps, failures="mark")
     failed = int((~motion.ok).sum())
     if failed and failed < motion.steps:
@@ -155,8 +150,7 @@ def cycle(mechanism: Mechanism, steps: int, session: Session) -> Motion:
         session.tell(
             session.say(
                 _(
-                    "note: {count} of {of} positions cannot be reached and are left out; the first: "
-                    "{sentence}",
+                    "note: {count} of {of} positions cannot be reached and are left out; the first: {sentence}",
                     count=failed,
                     of=motion.steps,
                     sentence=first.sentence,

@@ -81,17 +81,14 @@ def inputs(text: str, mechanism: Mechanism) -> dict[str, list[float]]:
         name, equals, values = part.rpartition("=")
         name = name.strip() if equals else next(iter(drivers))
         if name not in drivers:
-            cause = did_you_mean(
-                _('there is no driver "{name}"', code="solve.no_driver", name=name), name, drivers
-            )
+            cause = did_you_mean(_('there is no driver "{name}"', code="solve.no_driver", name=name), name, drivers)
             raise UsageError(_("{name}: {cause}", name="--at", cause=cause))
         found[name] = quantities(values, "angle" if drivers[name] else "length", "--at")
     counts = {len(values) for values in found.values()} - {1}
     if len(counts) > 1:
         raise UsageError(
             _(
-                "--at: the drivers have lists of different lengths ({counts}); give as many values "
-                "for each, or one",
+                "--at: the drivers have lists of different lengths ({counts}); give as many values for each, or one",
                 code="solve.uneven",
                 counts=tuple(map(str, sorted(counts))),
             )

@@ -104,11 +104,7 @@ VERSION = Option(
     help=_("print the versions of what is at work"),
 )
 PROGRAM = Program(
-    "linkwright",
-    params=[*COMMON, VERSION],
-    callback=_welcome,
-    invoke_without_command=True,
-    add_help_option=False,
+    "linkwright", params=[*COMMON, VERSION], callback=_welcome, invoke_without_command=True, add_help_option=False
 )
 #: What is read of the words before all else, as mistakes in the others are reported in the language.
 SETTINGS = click.Command(

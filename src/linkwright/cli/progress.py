@@ -39,9 +39,7 @@ def progress(session: Session, what: Message) -> Iterator[Progress | None]:
 
 
 @contextmanager
-def resumable(
-    state: str | None, name: str, inputs: Iterable[object], session: Session
-) -> Iterator[Progress | None]:
+def resumable(state: str | None, name: str, inputs: Iterable[object], session: Session) -> Iterator[Progress | None]:
     """Work with a bar whose finished parts are stored in ``state``; an interruption names the file to resume from."""
     from linkwright.designs.checkpoints import RESUME, Interrupted, checkpointing
 

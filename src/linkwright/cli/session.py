@@ -31,9 +31,7 @@ _SIDES: dict[str, Literal["left", "right", "center"]] = {"<": "left", ">": "righ
 class Session:
     """``say`` gives words in the chosen language, ``json`` asks for data, ``debug`` for tracebacks."""
 
-    def __init__(
-        self, say: Translate, language: str = "en", *, json: bool = False, debug: bool = False
-    ) -> None:
+    def __init__(self, say: Translate, language: str = "en", *, json: bool = False, debug: bool = False) -> None:
         self.say, self.language, self.json, self.debug = say, language, json, debug
 
     @cached_property
@@ -51,9 +49,7 @@ class Session:
 
         On a terminal they are wrapped to its width; elsewhere every line is as long as it is.
         """
-        self._print(
-            Text("\n").join(each if isinstance(each, Text) else plain(each) for each in lines or [""])
-        )
+        self._print(Text("\n").join(each if isinstance(each, Text) else plain(each) for each in lines or [""]))
 
     def show_as_is(self, text: str) -> None:
         """Prints a file or data without wrapping; raises OutputError where the output is full or closed."""
@@ -127,10 +123,7 @@ class Session:
 
     def _parts(self, table: Table, *, first: bool) -> Iterator[RenderableType]:
         """A table as rich prints it: title, columns within the terminal, notes."""
-        title, notes = (
-            in_language(table.title, self.language),
-            [in_language(n, self.language) for n in table.notes],
-        )
+        title, notes = (in_language(table.title, self.language), [in_language(n, self.language) for n in table.notes])
         head, *rows = table.texts(self.language)
         if title:
             yield Text(title, "bold" if first else "")
@@ -184,9 +177,7 @@ class _Console(Console):
 
 def _console(*, stderr: bool) -> Console:
     colours = None if os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb" else "auto"
-    return _Console(
-        stderr=stderr, color_system=cast(Any, colours), highlight=False, markup=False, emoji=False
-    )
+    return _Console(stderr=stderr, color_system=cast(Any, colours), highlight=False, markup=False, emoji=False)
 
 
 @contextmanager

@@ -88,9 +88,7 @@ def _places(solved: Solved, wanted: Sequence[Wanted], degrees: bool) -> list[Pla
     forces = solved.forces
     assert forces is not None
     if not solved.between:
-        rows = [
-            first_largest(signal(forces) if kind == "max" else -signal(forces)) for signal, kind in wanted
-        ]
+        rows = [first_largest(signal(forces) if kind == "max" else -signal(forces)) for signal, kind in wanted]
         values = [float(signal(forces)[row]) for (signal, _unused), row in zip(wanted, rows, strict=True)]
     else:
         found = [(signal, solved.analysis.extreme(signal, kind, of="forces")) for signal, kind in wanted]
@@ -211,9 +209,7 @@ def _efforts(solved: Solved, forces: Forces, say: Translate, *, degrees: bool) -
             )
         )
         if solved.between and solved.motion.positions.closed:
-            sentence += say(
-                _(", mean {mean} {unit}", mean=number(solved.analysis.mean_of(effort)), unit=unit)
-            )
+            sentence += say(_(", mean {mean} {unit}", mean=number(solved.analysis.mean_of(effort)), unit=unit))
         rows.append(sentence)
     return rows
 

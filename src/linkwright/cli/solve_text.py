@@ -121,9 +121,7 @@ def _headed(columns: Sequence[Column], solved: Solved, say: Translate) -> list[C
         if column.name in inputs:
             column = replace(column, owner=say(_("input")), quantity="" if len(inputs) == 1 else column.name)
         elif column.quantity == "effort" and len(inputs) == 1:
-            column = replace(
-                column, owner=say(_("driver")), quantity="torque" if "m" in column.unit else "force"
-            )
+            column = replace(column, owner=say(_("driver")), quantity="torque" if "m" in column.unit else "force")
         found.append(column)
     return found
 
@@ -139,9 +137,7 @@ def efforts(solved: Solved, columns: Mapping[str, Column]) -> list[Column]:
 def blocks(solved: Solved, columns: Mapping[str, Column], points: Iterable[str]) -> list[list[Column]]:
     """Columns that belong together, what matters most first: points asked for, outputs, then the other links."""
     mechanism, structure = solved.motion.mechanism, solved.motion.structure
-    found = [
-        [columns[f"{point}.{kind}"] for kind in POINT if f"{point}.{kind}" in columns] for point in points
-    ]
+    found = [[columns[f"{point}.{kind}"] for kind in POINT if f"{point}.{kind}" in columns] for point in points]
     for joint in _output_guides(mechanism):
         found.append([columns[f"{joint}.{kind}"] for kind in GUIDE])
     for link in _ranked_links(mechanism, structure):
@@ -223,9 +219,7 @@ QUANTITIES: dict[str, str] = {
 
 
 def _widths(columns: Sequence[Column], say: Translate) -> list[int]:
-    return [
-        max(cells(text) for text in [*column.cells(), label(column, say), column.unit]) for column in columns
-    ]
+    return [max(cells(text) for text in [*column.cells(), label(column, say), column.unit]) for column in columns]
 
 
 def label(column: Column, say: Translate) -> str:
@@ -241,9 +235,7 @@ def table(columns: Sequence[Column], say: Translate) -> list[str]:
     owners = _owner_line(columns, widths)
     lines = [owners] if owners.strip() else []
     for row in [labels, [column.unit for column in columns], *zip(*cells, strict=True)]:
-        lines.append(
-            GAP.join(padded(text, wide, ">") for text, wide in zip(row, widths, strict=True)).rstrip()
-        )
+        lines.append(GAP.join(padded(text, wide, ">") for text, wide in zip(row, widths, strict=True)).rstrip())
     return lines
 
 

@@ -81,10 +81,7 @@ def integer(option: str, value: object, minimum: int | None = None, maximum: int
         problem = (
             _("{option} is {value}; give an integer", code="given_instead.no_whole")
             if minimum is None
-            else _(
-                "{option} is {value}; give an integer of at least {minimum}",
-                code="given_instead.no_whole_from",
-            )
+            else _("{option} is {value}; give an integer of at least {minimum}", code="given_instead.no_whole_from")
         )
         raise RequestError(problem.format(option=option, value=repr(value)[:LONGEST], minimum=minimum))
     if maximum is not None and found > maximum:
@@ -159,9 +156,7 @@ def describe(value: object) -> str:
     if value is None or isinstance(value, int | float):
         return repr(value)
     kind = value if isinstance(value, type) else type(value)
-    return (_("the class {kind}") if kind is value else _("a value of the type {kind}")).format(
-        kind=kind.__name__
-    )
+    return (_("the class {kind}") if kind is value else _("a value of the type {kind}")).format(kind=kind.__name__)
 
 
 def _hint(value: object, names: list[str]) -> str:

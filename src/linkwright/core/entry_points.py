@@ -23,9 +23,7 @@ def offered_by_packages(group: str) -> dict[str, str]:
 def modules_within(folders: Iterable[str]) -> list[str]:
     """Names of the modules in the folders of a package, in alphabetical order."""
     files = {name for folder in folders for name in os.listdir(folder)}
-    return sorted(
-        name.removesuffix(".py") for name in files if name.endswith(".py") and name != "__init__.py"
-    )
+    return sorted(name.removesuffix(".py") for name in files if name.endswith(".py") and name != "__init__.py")
 
 
 def loaded(target: str) -> Any:

@@ -148,10 +148,7 @@ class Parser:
             return Number(value, units.NONE, column)
         if self.prefer == "variables" and name in self.variables:
             return Binary("*", Number(value, units.NONE, column), self._prefix(), place)
-        turning = [entry[1] for entry in self.tokens[self.at : self.at + 3]] in (
-            ["r", "/", "min"],
-            ["r", "/", "s"],
-        )
+        turning = [entry[1] for entry in self.tokens[self.at : self.at + 3]] in (["r", "/", "min"], ["r", "/", "s"])
         if name not in units.UNITS and not turning:
             if name in self.variables:
                 raise self._fault(
@@ -193,9 +190,7 @@ class Parser:
         if kind == "power":
             self.at += 1
             exponent = units.exponent(power)
-        elif (
-            power == "^" and self.tokens[self.at + 1][0] == "number" and self.tokens[self.at + 1][1].isdigit()
-        ):
+        elif power == "^" and self.tokens[self.at + 1][0] == "number" and self.tokens[self.at + 1][1].isdigit():
             exponent = units.exponent(self.tokens[self.at + 1][1])
             self.at += 2
         return factor**exponent, units.times(units.NONE, dimension, exponent)
@@ -206,11 +201,7 @@ class Parser:
         Joined by ``*`` a name may be a parameter; where it is a unit as well, that is an error.
         """
         _unused, sign, column = self.tokens[self.at]
-        if (
-            sign not in ("*", "/")
-            or self.tokens[self.at + 1][0] != "name"
-            or self.tokens[self.at + 2][1] == "("
-        ):
+        if sign not in ("*", "/") or self.tokens[self.at + 1][0] != "name" or self.tokens[self.at + 2][1] == "(":
             return False
         _unused2, name, place = self.tokens[self.at + 1]
         if name not in units.UNITS or (self.prefer != "units" and name in self.variables):
@@ -258,9 +249,7 @@ class Parser:
 
     def _call(self, name: str, column: int) -> Node:
         if name not in ARITY:
-            raise self._fault(
-                _('unknown function "{name}"'), column, offered(name, ARITY), "unknown-name", name=name
-            )
+            raise self._fault(_('unknown function "{name}"'), column, offered(name, ARITY), "unknown-name", name=name)
         self.at += 1
         arguments = [self._binary(0)]
         while self.tokens[self.at][1] == ",":

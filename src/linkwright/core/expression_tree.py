@@ -129,9 +129,7 @@ def denominators(node: Node) -> Iterator[Node]:
         case Binary(sign, left, right):
             if sign == "/":
                 yield right
-            if sign == "^" and (
-                isinstance(right, Negative) or (isinstance(right, Number) and right.value < 0)
-            ):
+            if sign == "^" and (isinstance(right, Negative) or (isinstance(right, Number) and right.value < 0)):
                 yield left
             yield from denominators(left)
             yield from denominators(right)
@@ -151,9 +149,7 @@ def dimension_of(node: Node, kinds: Mapping[str, units.Dimension]) -> units.Dime
         case Binary("^", base, exponent, column):
             return _power_dimension(base, exponent, kinds, column)
         case Binary("*" | "/" as sign, left, right):
-            return units.times(
-                dimension_of(left, kinds), dimension_of(right, kinds), 1 if sign == "*" else -1
-            )
+            return units.times(dimension_of(left, kinds), dimension_of(right, kinds), 1 if sign == "*" else -1)
     word = "added" if node.sign == "+" else "subtracted"
     return _common_dimension((node.left, node.right), kinds, node.column, word)
 
@@ -226,9 +222,7 @@ def _power_dimension(
         return units.NONE
     power = exponent.operand if isinstance(exponent, Negative) else exponent
     if not isinstance(power, Number):
-        raise _wrong(
-            _("a quantity with a unit has an exponent that is not a number"), column, _("write the number")
-        )
+        raise _wrong(_("a quantity with a unit has an exponent that is not a number"), column, _("write the number"))
     return units.times(units.NONE, kind, power.value if power is exponent else -power.value)
 
 

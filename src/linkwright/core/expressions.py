@@ -166,9 +166,7 @@ def parse_quantity(
 ) -> float | Expression:
     """A quantity as a file gives it: a number with its unit (SI float), or an expression of the names in
     ``kinds``. Raises QuantityError."""
-    value = (
-        units.plain_quantity(text, dimension) if not kinds or kinds.keys().isdisjoint(units.UNITS) else None
-    )
+    value = units.plain_quantity(text, dimension) if not kinds or kinds.keys().isdisjoint(units.UNITS) else None
     return parse_as(text, dimension, kinds or {}) if value is None else value
 
 
@@ -244,16 +242,12 @@ def _meant_parameter(
     """The name of a parameter that the text has as a unit in ``found``, where it is the quantity that is needed with
     the parameter as well; empty where there is none."""
     words = re.findall(r"[^\W\d]\w*", plain)
-    names = [
-        each for each in words if each in units.UNITS and each in kinds and not (found and each in _BASE)
-    ]
+    names = [each for each in words if each in units.UNITS and each in kinds and not (found and each in _BASE)]
     if names:
         with suppress(QuantityError):
             prefer: Preferred = "variables" if found is None else "variables behind units"
             other = fitted(parse(plain, kinds, prefer=prefer), dimension, kinds)
-            return next(
-                (each for each in names if each in other.names - (found.names if found else set())), ""
-            )
+            return next((each for each in names if each in other.names - (found.names if found else set())), "")
     return ""
 
 
@@ -314,9 +308,7 @@ def fitted(expression: Expression, dimension: str, kinds: Mapping[str, units.Dim
     """
     kind, needed = expression.dimension(kinds), units.DIMENSIONS[dimension]
     if dimension == "frequency" and kind == units.DIMENSIONS["angular_velocity"]:
-        return Expression(
-            expression.text, Binary("/", expression.tree, Number(2 * math.pi)), expression.names
-        )
+        return Expression(expression.text, Binary("/", expression.tree, Number(2 * math.pi)), expression.names)
     near = kind[:3] == needed[:3] != (0, 0, 0)
     product = near and derived(expression.tree, kinds)
     if (product and dimension != "frequency") or (kind == needed and not product):

@@ -92,20 +92,31 @@ KINDS = {
     "named": Kind("motion", "", form="owner"),
     "named_rate": Kind("motion", "", word="rate", form="part"),
     "named_second_rate": Kind("motion", "", word="second_rate", form="part"),
-}  # fmt: skip
+}
 _BY_ROW = {kind.row: name for name, kind in KINDS.items() if kind.row}
 _RATES = {
-    "position": "velocity", "velocity": "acceleration", "acceleration": "jerk",
-    "angle": "angular_velocity", "angular_velocity": "angular_acceleration", "angular_acceleration": "angular_jerk",
-    "displacement": "slide_velocity", "slide_velocity": "slide_acceleration", "slide_acceleration": "slide_jerk",
-    "named": "named_rate", "named_rate": "named_second_rate",
-}  # fmt: skip
+    "position": "velocity",
+    "velocity": "acceleration",
+    "acceleration": "jerk",
+    "angle": "angular_velocity",
+    "angular_velocity": "angular_acceleration",
+    "angular_acceleration": "angular_jerk",
+    "displacement": "slide_velocity",
+    "slide_velocity": "slide_acceleration",
+    "slide_acceleration": "slide_jerk",
+    "named": "named_rate",
+    "named_rate": "named_second_rate",
+}
 #: Dimension of a rate by that of what changes.
 _RATE_DIMENSIONS = {
-    "length": "velocity", "velocity": "acceleration", "angle": "angular_velocity",
-    "angular_velocity": "angular_acceleration", "dimensionless": "per_time", "per_time": "per_time_squared",
+    "length": "velocity",
+    "velocity": "acceleration",
+    "angle": "angular_velocity",
+    "angular_velocity": "angular_acceleration",
+    "dimensionless": "per_time",
+    "per_time": "per_time_squared",
     "area": "areal_velocity",
-}  # fmt: skip
+}
 
 
 #: Dimension of an output's rate over the input's, by the dimensions of output and input.
@@ -306,13 +317,7 @@ class Output:
         """To what a column belongs: ``jaw``, ``O5 on jaw``, ``shaking_force``; nothing for an input and the time."""
         if not self.owner:
             return self.component and self.word
-        return (
-            ""
-            if self.kind in ("input", "named")
-            else f"{self._owner} on {self.on}"
-            if self.on
-            else self._owner
-        )
+        return "" if self.kind in ("input", "named") else f"{self._owner} on {self.on}" if self.on else self._owner
 
     @property
     def column(self) -> str:

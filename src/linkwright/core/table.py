@@ -78,11 +78,7 @@ class Amount:
     @property
     def shown(self) -> float:
         """The value in the shown unit."""
-        return (
-            self.value / self.scale.factor
-            if self.scale is not None
-            else self.value * shown_factor(self.dimension)
-        )
+        return self.value / self.scale.factor if self.scale is not None else self.value * shown_factor(self.dimension)
 
     @property
     def number(self) -> str:

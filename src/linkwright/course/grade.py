@@ -106,9 +106,16 @@ class Grades(Tabular, Sequence[Grade]):
     def data(self) -> dict[str, Any]:
         """Plain data."""
         sheets = [
-            {"student": g.student, "variant": g.variant, "right": list(g.right), "mistakes": list(g.mistakes),
-             "where": g.where, **({"fault": g.fault} if g.fault else {})} for g in self.sheets
-        ]  # fmt: skip
+            {
+                "student": g.student,
+                "variant": g.variant,
+                "right": list(g.right),
+                "mistakes": list(g.mistakes),
+                "where": g.where,
+                **({"fault": g.fault} if g.fault else {}),
+            }
+            for g in self.sheets
+        ]
         return {"ok": not self.faults, "sheets": sheets}
 
 

@@ -19,9 +19,7 @@ from linkwright.words.sentence import reason_of
 LARGEST = 1e300
 
 
-_NO_KEY = _(
-    "{path}: this is no answer key; give the key.json that the command variants wrote", code="course.no_key"
-)
+_NO_KEY = _("{path}: this is no answer key; give the key.json that the command variants wrote", code="course.no_key")
 
 
 def read_key(key: Mapping[str, Any] | str | Path) -> Mapping[str, Any]:

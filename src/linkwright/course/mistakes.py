@@ -73,8 +73,7 @@ def degrees_for_radians(sheet: Sheet) -> Made:
     if q is not None and q.degrees:
         yield "q", sheet.reckoned(data={"q": math.degrees(q.amount)})
     radians = {
-        each: math.radians(value) if each.dimension == "angle" else value
-        for each, value in sheet.values.items()
+        each: math.radians(value) if each.dimension == "angle" else value for each, value in sheet.values.items()
     }
     yield "answer", radians
 
@@ -90,9 +89,7 @@ def rpm_for_radians(sheet: Sheet) -> Made:
 def wrong_assembly_mode(sheet: Sheet) -> Made:
     """The other root of a group."""
     for group in dict.fromkeys(line.group for line in sheet.lines if line.result.plain == "ρ"):
-        start = next(
-            i for i, line in enumerate(sheet.lines) if line.group == group and line.result.plain == "ρ"
-        )
+        start = next(i for i, line in enumerate(sheet.lines) if line.group == group and line.result.plain == "ρ")
 
         def change(number: int, _: Term, formula: Term, group: str = group, start: int = start) -> Term:
             line = sheet.lines[number]
@@ -124,9 +121,7 @@ def _pairs(sheet: Sheet) -> Made:
             continue
         for first, second in zip(_slips(line.formula), _slips(follower.formula), strict=False):
 
-            def change(
-                k: int, _: Term, formula: Term, n: int = number, a: Term = first, b: Term = second
-            ) -> Term:
+            def change(k: int, _: Term, formula: Term, n: int = number, a: Term = first, b: Term = second) -> Term:
                 return a if k == n else b if k == n + 1 else formula
 
             yield f"{line.result.plain}, {follower.result.plain}", sheet.reckoned(change)
@@ -194,9 +189,7 @@ def arctangent_quadrant(sheet: Sheet) -> Made:
 
 def inertia_couple_sign(sheet: Sheet) -> Made:
     """The inertia couples are taken along the angular accelerations: of all links, or of one."""
-    places = [
-        i for i, line in enumerate(sheet.lines) if line.result.plain.startswith("M_J") and not line.is_given
-    ]
+    places = [i for i, line in enumerate(sheet.lines) if line.result.plain.startswith("M_J") and not line.is_given]
 
     for chosen in dict.fromkeys((tuple(places), *((place,) for place in places))):
         where = ", ".join(sheet.lines[place].result.plain for place in chosen)
@@ -233,16 +226,19 @@ def mass_centre_wrong_end(sheet: Sheet) -> Made:
     for names in dict.fromkeys([*((name,) for name in turned), tuple(turned)]):
         if names:
             links = {**sheet.mechanism.links, **{name: turned[name] for name in names}}
-            yield (
-                ", ".join(names),
-                Calculation(_lines(replace(sheet.mechanism, links=links), sheet.at)).values(),
-            )
+            yield (", ".join(names), Calculation(_lines(replace(sheet.mechanism, links=links), sheet.at)).values())
 
 
 MISTAKES: dict[str, Callable[[Sheet], Made]] = {
     make.__name__: make
     for make in (
-        degrees_for_radians, wrong_assembly_mode, missing_parenthesis, arctangent_quadrant, inertia_couple_sign,
-        missing_coriolis, mass_centre_wrong_end, rpm_for_radians,
+        degrees_for_radians,
+        wrong_assembly_mode,
+        missing_parenthesis,
+        arctangent_quadrant,
+        inertia_couple_sign,
+        missing_coriolis,
+        mass_centre_wrong_end,
+        rpm_for_radians,
     )
-}  # fmt: skip
+}

@@ -32,8 +32,7 @@ TALLEST, LOWEST, ROOM, ROW, SHARE = 110.0, 30.0, 196.0, 5.0, 0.8
 Files = dict[str, bytes]
 #: Axes and signs of answers.
 CONVENTION = _(
-    "x to the right, y up; angles and moments counter-clockwise positive; angles of a link's "
-    "x axis in degrees."
+    "x to the right, y up; angles and moments counter-clockwise positive; angles of a link's x axis in degrees."
 )
 
 
@@ -131,16 +130,7 @@ def braceless(text: str) -> str:
 # sheets and key ---------------------------------------------------------------------------------
 def sheets(found: Variants, language: str) -> Files:
     """One page per variant: drawing, data, numbers asked for."""
-    from linkwright.reports.document import (
-        Block,
-        Document,
-        Figure,
-        Heading,
-        Paragraph,
-        Source,
-        Table,
-        literal,
-    )
+    from linkwright.reports.document import Block, Document, Figure, Heading, Paragraph, Source, Table, literal
     from linkwright.reports.font_scaling import font_scaling
     from linkwright.reports.typst_pages import compiled
 
@@ -158,14 +148,7 @@ def sheets(found: Variants, language: str) -> Files:
         page.append(Figure(literal(found.name), ((shown, SHARE),), tallest=tallest))
         page.append(Table(say(_("Given")), (say(_("name")), say(_("value"))), rows, "<<"))
         asked = tuple((literal(q.text(language)), "…" * 14, q.unit) for q in found.task.questions)
-        page.append(
-            Table(
-                say(_("Wanted")),
-                (say(_("name")), say(_("answer")), say(_("unit"))),
-                asked,
-                "<<<",
-            )
-        )
+        page.append(Table(say(_("Wanted")), (say(_("name")), say(_("answer")), say(_("unit"))), asked, "<<<"))
         document.blocks += page
     return {"sheets.pdf": compiled(document, "pdf")}
 
@@ -174,9 +157,7 @@ def key(found: Variants, language: str) -> Files:
     """The answer key: JSON for ``grade``, CSV to read, and an empty sheet of answers to fill in."""
     names = [f"{q.name} [{q.unit}]" for q in found.task.questions]
     right = [["variant", *found.task.ranges, *names]]
-    right += [
-        [str(v.number), *(f"{x:.6g}" for x in (*v.dimensions.values(), *v.answers))] for v in found.variants
-    ]
+    right += [[str(v.number), *(f"{x:.6g}" for x in (*v.dimensions.values(), *v.answers))] for v in found.variants]
     empty = [["student", "variant", *(q.name for q in found.task.questions)]]
     return {
         "key.json": found.key_text().encode(),
@@ -191,9 +172,7 @@ def prairielearn(found: Variants, language: str) -> Files:
     say = speaker(language)
     folder = f"prairielearn/{slug(found.name)}"
     info = {
-        "uuid": str(
-            uuid.uuid5(uuid.NAMESPACE_URL, f"linkwright:{found.name}:{found.seed}:{len(found.variants)}")
-        ),
+        "uuid": str(uuid.uuid5(uuid.NAMESPACE_URL, f"linkwright:{found.name}:{found.seed}:{len(found.variants)}")),
         "title": found.name,
         "topic": say(_("Theory of machines")),
         "tags": ["linkwright", "numeric"],

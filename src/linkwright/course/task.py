@@ -45,15 +45,17 @@ class ShareOfAnswer(Value):
         return None
 
 
-SECTION = Keys({
-    "vary": ByAddress(
-        Listed(Value(), "[0.3 m, 0.35 m]", alone=True),
-        doc=_("dimensions that change, by a share (8 %) or between two values"),
-    ),
-    "ask": Listed(Text(), "[rocker.angle, driver.effort]", doc=_("results that are asked for")),
-    "at": Value(doc=_("input at which they are asked for, such as 60 deg")),
-    "tolerance": ShareOfAnswer(doc=_("how far an answer may be off, such as 1 %")),
-})  # fmt: skip
+SECTION = Keys(
+    {
+        "vary": ByAddress(
+            Listed(Value(), "[0.3 m, 0.35 m]", alone=True),
+            doc=_("dimensions that change, by a share (8 %) or between two values"),
+        ),
+        "ask": Listed(Text(), "[rocker.angle, driver.effort]", doc=_("results that are asked for")),
+        "at": Value(doc=_("input at which they are asked for, such as 60 deg")),
+        "tolerance": ShareOfAnswer(doc=_("how far an answer may be off, such as 1 %")),
+    }
+)
 #: By how much lengths change, and how far an answer may be off, where nobody says.
 SHARE, TOLERANCE = 0.08, 0.01
 #: The position at which numbers are asked for where nobody says which.
@@ -66,9 +68,7 @@ ROUNDED = 1e-9
 NOTHING = 1e-9
 
 
-_NO_RANGE = _(
-    '"{text}" is no range; give a share (8 %) or two values ([0.3 m, 0.35 m])', code="course.bad_range"
-)
+_NO_RANGE = _('"{text}" is no range; give a share (8 %) or two values ([0.3 m, 0.35 m])', code="course.bad_range")
 
 
 @dataclass(frozen=True)
@@ -176,11 +176,7 @@ class _Reading(SectionReading):
             low, high = _by(share, value)
         if -math.inf < low < high < math.inf:
             return low, high
-        self.note(
-            key,
-            _NO_RANGE.format(text=flow(limits)),
-            "bad-range",
-        )
+        self.note(key, _NO_RANGE.format(text=flow(limits)), "bad-range")
         return None
 
     def _questions(self, sheet: Sheet) -> tuple[Question, ...]:
@@ -191,10 +187,7 @@ class _Reading(SectionReading):
         names = {output.column: output for output in sheet.values}
         if not section:
             message = _(
-                '"{given}" is no list of results; {hint}',
-                code="course.no_list",
-                given="[]",
-                hint=offered("", names),
+                '"{given}" is no list of results; {hint}', code="course.no_list", given="[]", hint=offered("", names)
             )
             self.note("ask", message, "no-list")
             return ()

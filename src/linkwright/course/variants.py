@@ -47,23 +47,23 @@ MIN_DIFFERENCE = 3.0
 TOO_FEW = {
     "stuck": _(
         "do not pass their cycle: give narrower limits in course.vary (it varies {vary}), or "
-        "name fewer dimensions there, and such as need not fit each other",
+        "name fewer dimensions there, and such as need not fit each other"
     ),
     "flat": _(
         "transmit worse than the model: give narrower limits in course.vary (it varies {vary}), "
-        "or start from a machine with a larger transmission angle",
+        "or start from a machine with a larger transmission angle"
     ),
     "unlike": _(
         "have answers of another sign or of quite another size than the model: move course.at to "
-        "a position where the results are not near zero, or ask for others in course.ask",
+        "a position where the results are not near zero, or ask for others in course.ask"
     ),
     "mistakes": _(
         "show other mistakes than the model: give narrower limits in course.vary (it varies "
-        "{vary}), or move course.at",
+        "{vary}), or move course.at"
     ),
     "same": _(
         "have the same answers as others: name dimensions in course.vary on which the answers "
-        "depend (it varies {vary}), or give wider limits",
+        "depend (it varies {vary}), or give wider limits"
     ),
 }
 
@@ -129,10 +129,11 @@ class Variants:
         angles = [each.transmission_angle for each in self.variants if each.transmission_angle is not None]
         ratios = [
             max(abs(column)) / min(abs(column))
-            for column, question in zip(np.array([v.answers for v in self.variants]).T, self.task.questions,
-                                        strict=True)
+            for column, question in zip(
+                np.array([v.answers for v in self.variants]).T, self.task.questions, strict=True
+            )
             if question.unit != "°" and np.all(column)
-        ]  # fmt: skip
+        ]
         return Difficulty((min(angles), max(angles)) if angles else None, max(ratios, default=1.0))
 
     def key(self) -> dict[str, Any]:
@@ -142,9 +143,7 @@ class Variants:
             "name": self.name,
             "seed": self.seed,
             "tolerance": self.task.tolerance,
-            "questions": [
-                {"name": q.name, "column": q.output.heading, "unit": q.unit} for q in self.task.questions
-            ],
+            "questions": [{"name": q.name, "column": q.output.heading, "unit": q.unit} for q in self.task.questions],
             "variants": [
                 {
                     "number": each.number,
@@ -192,11 +191,7 @@ class Variants:
 
 
 def variants(
-    machine: Mechanism | str | Path,
-    count: int = 30,
-    *,
-    seed: int = 0,
-    progress: Progress | None = None,
+    machine: Mechanism | str | Path, count: int = 30, *, seed: int = 0, progress: Progress | None = None
 ) -> Variants:
     """Variants of a machine for a course.
 
@@ -216,9 +211,7 @@ def variants(
     require(machine, Mechanism, str, PathLike)
     count, seed = integer("count", count), integer("seed", seed)
     if not 1 <= count <= MOST:
-        raise RequestError(
-            _("{count} variants cannot be made; give 1 to 1000", code="course.bad_count", count=count)
-        )
+        raise RequestError(_("{count} variants cannot be made; give 1 to 1000", code="course.bad_count", count=count))
     if seed < 0:
         raise RequestError(BAD_SEED.format(seed=seed))
     asked = task(machine if isinstance(machine, Mechanism) else load(str(machine)))
@@ -250,8 +243,7 @@ def _too_few(asked: Task, found: int, count: int, failed: Counter[str]) -> Linkw
         known = [name for name, value in asked.mechanism.dimensions().items() if value]
         return LinkwrightError(
             _(
-                "there is no size of a link to vary; name what changes in course.vary (8 % of one of "
-                "{known})",
+                "there is no size of a link to vary; name what changes in course.vary (8 % of one of {known})",
                 code="course.nothing_varies",
                 known=tuple(known),
             )
@@ -302,8 +294,7 @@ def _sound(
         return "flat"
     fresh = replace(_solved(asked, number, changes, mechanism), transmission_angle=angle)
     consistent = all(
-        _indistinguishable(a, b, q)
-        for a, b, q in zip(fresh.answers, model.answers, asked.questions, strict=True)
+        _indistinguishable(a, b, q) for a, b, q in zip(fresh.answers, model.answers, asked.questions, strict=True)
     )
     if not consistent:
         return "unlike"
@@ -325,8 +316,10 @@ def _solved(asked: Task, number: int, changes: Mapping[str, float], mechanism: M
     held = []
     for each in sheet.consequences():
         answers = tuple(each.values.get(output, math.nan) for output in outputs)
-        if any(not close(a, b, MIN_DIFFERENCE * asked.tolerance, q.unit)
-               for a, b, q in zip(answers, right, asked.questions, strict=True)):  # fmt: skip
+        if any(
+            not close(a, b, MIN_DIFFERENCE * asked.tolerance, q.unit)
+            for a, b, q in zip(answers, right, asked.questions, strict=True)
+        ):
             held.append((each, answers))
     return Variant(number, mechanism, dict(changes), right, tuple(held))
 

@@ -51,9 +51,7 @@ class Curve:
         self.edges, self.values, self.met = edges, values, met
 
     @classmethod
-    def of(
-        cls, function: Function, start: float, end: float, *, pieces: int = 60, knots: Floats = _NONE
-    ) -> Curve:
+    def of(cls, function: Function, start: float, end: float, *, pieces: int = 60, knots: Floats = _NONE) -> Curve:
         """A function (n,) -> (n,) between two places, in pieces that are halved until their polynomials meet it, and
         each other where it may neither kink nor jump: but at ``knots``, as far as these are known."""
         inner = increasing(knots[(knots > start) & (knots < end)])

@@ -135,7 +135,5 @@ def climbed(rows: Floats) -> tuple[Floats, Floats]:
     padded, found = np.zeros((POINTS, room)), np.empty((2, room))
     padded[:, :count] = rows
     vectors, tables = np.empty((4 * POINTS, LANES)), _tables()
-    _kernels()(
-        "peaks", count, address_of(padded), room, address_of(tables), address_of(vectors), address_of(found)
-    )
+    _kernels()("peaks", count, address_of(padded), room, address_of(tables), address_of(vectors), address_of(found))
     return found[0, :count], found[1, :count]

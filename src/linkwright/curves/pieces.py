@@ -16,17 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.arrays import Flags, Floats, Indices, begins
-from linkwright.curves.polynomials import (
-    HIDDEN,
-    LAST,
-    NODES,
-    POINTS,
-    SLACK,
-    TO_ENDS,
-    UP_TO,
-    WEIGHTS,
-    product,
-)
+from linkwright.curves.polynomials import HIDDEN, LAST, NODES, POINTS, SLACK, TO_ENDS, UP_TO, WEIGHTS, product
 
 #: Columns that are the times, s, of a piece's ends.
 LOW, HIGH = "low", "high"
@@ -157,12 +147,7 @@ class Pieces:
         self._take(done[0] if len(done) == 1 else _joined(done))
 
     def _take(self, batch: _Batch) -> None:
-        self.stretch, self.first, self.last, self.columns = (
-            batch.stretch,
-            batch.first,
-            batch.last,
-            batch.columns,
-        )
+        self.stretch, self.first, self.last, self.columns = (batch.stretch, batch.first, batch.last, batch.columns)
         self._chunk, self._column = batch.chunk, batch.column
         self.top, self.bottom, self.rough, self.mean_values = batch.stats
         self.design = self._owner[self.stretch]
@@ -337,9 +322,7 @@ def _joined(batches: Sequence[_Batch]) -> _Batch:
         return np.concatenate([getattr(each, name) for each in batches])
 
     columns = {name: np.concatenate([each.columns[name] for each in batches]) for name in batches[0].columns}
-    stretch, first, last, chunk, column, unmet = map(
-        row, ("stretch", "first", "last", "chunk", "column", "unmet")
-    )
+    stretch, first, last, chunk, column, unmet = map(row, ("stretch", "first", "last", "chunk", "column", "unmet"))
     stats = np.concatenate([each.stats for each in batches], axis=2)
     found = _Batch(stretch, first, last, chunk, column, stats, columns, unmet)
     return found.taken(np.lexsort((first, stretch)))

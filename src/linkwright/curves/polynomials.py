@@ -108,9 +108,7 @@ def turning_points(rows: Floats, low: Floats, high: Floats, start: Floats) -> Fl
     return x
 
 
-def best_of(
-    value: Floats, owner: Indices, slack: Floats | None = None, time: Floats | None = None
-) -> Indices:
+def best_of(value: Floats, owner: Indices, slack: Floats | None = None, time: Floats | None = None) -> Indices:
     """Of values (k,) in the order of their owners the number of the largest one of every owner: of such as are as
     large but for ``slack`` (rounding where left out) the first, in ``time``."""
     starts = begins(owner)

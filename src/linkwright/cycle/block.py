@@ -52,8 +52,9 @@ class Block:
         self.reversals = {swings.swings[int(each.name)]: each for each in found}
         self.limits = {
             output: Limits(each, swings.values.get(output), self.span)
-            for output, each in self.reversals.items() if isinstance(output, Output)
-        }  # fmt: skip
+            for output, each in self.reversals.items()
+            if isinstance(output, Output)
+        }
 
     def _periods(self) -> Floats:
         course = self.machine.course

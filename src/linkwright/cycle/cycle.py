@@ -45,17 +45,17 @@ class Cycle(Asked):
         every = {part.name: part for part in parts}
         found = {
             text: output
-            for text, part in every.items() if type(part) is Summary and part.kind in OF_LIMITS
-            for output in [machine.meant(part.output)] if output in limited
-        }  # fmt: skip
+            for text, part in every.items()
+            if type(part) is Summary and part.kind in OF_LIMITS
+            for output in [machine.meant(part.output)]
+            if output in limited
+        }
         strokes = {
             text: (machine.meant(part.by), part.way)
             for text, part in every.items()
             if isinstance(part, StrokeSummary)
         }
-        words = {
-            text: self._signal(each.output, each.kind) for text, each in every.items() if text not in found
-        }
+        words = {text: self._signal(each.output, each.kind) for text, each in every.items() if text not in found}
         super().__init__(every, words, found, strokes, map(Signal, dict.fromkeys(even)))
         signals, traces = tuple(self.number), machine.traces
         kinds: dict[tuple[str, bool], list[int]] = {}

@@ -14,14 +14,7 @@ from linkwright.cycle.block import Block, ByColumns, Swings
 from linkwright.cycle.machine import Machine
 from linkwright.events.formula import ROW
 from linkwright.events.limits import Limits
-from linkwright.kinetostatics.load_site import (
-    DRIFT,
-    LAP,
-    limit_input_name,
-    limit_name,
-    turns_steadily,
-    value_name,
-)
+from linkwright.kinetostatics.load_site import DRIFT, LAP, limit_input_name, limit_name, turns_steadily, value_name
 from linkwright.kinetostatics.signals import MotionSignals
 
 #: Designs of which limits are sought together.

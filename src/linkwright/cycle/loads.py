@@ -69,13 +69,7 @@ class OnStrokes(Acting):
     time goes on; ``fits``: designs that can have such a phase."""
 
     def __init__(
-        self,
-        load: Load,
-        strokes: Strokes,
-        *,
-        by_time: bool,
-        backwards: bool = False,
-        fits: Flags | None = None,
+        self, load: Load, strokes: Strokes, *, by_time: bool, backwards: bool = False, fits: Flags | None = None
     ) -> None:
         super().__init__(load, strokes.span)
         self.strokes, self.by_time, self.backwards, self._fits = strokes, by_time, backwards, fits
@@ -139,9 +133,7 @@ class WithinInput(Acting):
     falls, else 0.
     """
 
-    def __init__(
-        self, load: Load, span: Span, ends: tuple[Floats, Floats], heading: int, events: list[Ends]
-    ) -> None:
+    def __init__(self, load: Load, span: Span, ends: tuple[Floats, Floats], heading: int, events: list[Ends]) -> None:
         super().__init__(load, span)
         self.start, last = ends
         gap, self._rotary = last - self.start, span.course.first.law.rotary

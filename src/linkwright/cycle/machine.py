@@ -17,13 +17,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output, RelativeAngle
 from linkwright.curves.pieces import HIGH, LOW
 from linkwright.events.course import Course
-from linkwright.events.following import (
-    ITERATIONS,
-    ChainCoordinate,
-    chain_coordinates,
-    path_states,
-    stays_on_path,
-)
+from linkwright.events.following import ITERATIONS, ChainCoordinate, chain_coordinates, path_states, stays_on_path
 from linkwright.events.formula import NODE, Formula, Known
 from linkwright.events.path_step import PathStep
 from linkwright.events.path_tracker import PathTracker
@@ -39,14 +33,7 @@ from linkwright.kinematics.programs import Manner
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.friction import FrictionTerm, moving_rate
 from linkwright.kinetostatics.friction_stage import can_be_traced
-from linkwright.kinetostatics.load_site import (
-    ACTS,
-    acts_name,
-    angle_between,
-    guide_state,
-    middle_name,
-    output_value,
-)
+from linkwright.kinetostatics.load_site import ACTS, acts_name, angle_between, guide_state, middle_name, output_value
 from linkwright.kinetostatics.named_outputs import Named, Quantity
 from linkwright.kinetostatics.programs import ForcePrograms, force_programs
 from linkwright.kinetostatics.signals import MotionSignals
@@ -176,17 +163,13 @@ class Traces:
         return self._formulas[key]
 
     def _made(
-        self,
-        outputs: Mapping[str, Scalar],
-        then: Callable[[Trace, dict[str, Scalar]], Mapping[str, Scalar]] | None,
+        self, outputs: Mapping[str, Scalar], then: Callable[[Trace, dict[str, Scalar]], Mapping[str, Scalar]] | None
     ) -> Formula:
         t = Trace()
         node, low, high = t.parameter(NODE), t.position(LOW), t.position(HIGH)
         inputs = self.course.inputs(t, low + (high - low) * node, self.varied)
         source = Program.of(self.motion.trace, outputs)
-        more: dict[str, Scalar] = {
-            name: t.position(name) for name in source.parameters if name in self.varied
-        }
+        more: dict[str, Scalar] = {name: t.position(name) for name in source.parameters if name in self.varied}
         more |= path_states(self.tracked, t)
         for name in source.fields:
             kind, _, load = name.partition(":")
@@ -282,9 +265,7 @@ class Machine:
     def _phased(self, name: str) -> bool:
         """Whether a load acts in a phase whose ends are events."""
         own = self.mechanism.loads[name].magnitude
-        return not isinstance(own.phase, Always) and not (
-            isinstance(own.phase, MovingPhase) and not own.size.ramp
-        )
+        return not isinstance(own.phase, Always) and not (isinstance(own.phase, MovingPhase) and not own.size.ramp)
 
     def _seamed(self) -> bool:
         """Whether a load goes by the time, or by the turns of the input."""
@@ -390,9 +371,7 @@ class Machine:
         if not name.startswith("line "):
             return float("nan")
         which, _, owner = name.removeprefix("line ").partition(":")
-        rotation = (
-            self.nominal.states[owner] if owner in self.nominal.states else self.nominal.link(owner).angle
-        )
+        rotation = self.nominal.states[owner] if owner in self.nominal.states else self.nominal.link(owner).angle
         rotary = next(iter(self.nominal.positions.rotary.values()))
         line = line_near(rotation, self.nominal.input if rotary else np.zeros(len(rotation)))
         if line is None:

@@ -84,8 +84,6 @@ class NearLimits:
 class _Lanes(threading.local):
     """The columns of the places of one thread, written where they lie, and the code that reads them there."""
 
-    def __init__(
-        self, code: CompiledProgram, names: Iterable[str], lanes: int, tables: Tables | None
-    ) -> None:
+    def __init__(self, code: CompiledProgram, names: Iterable[str], lanes: int, tables: Tables | None) -> None:
         self.columns: dict[str, Floats] = {name: np.empty(lanes) for name in names}
         self.run = code.repeated(self.columns, tables=tables)

@@ -20,8 +20,13 @@ from linkwright.events.stretches import Span
 
 #: Sides of a signal on which its summaries lie.
 SIDES: Mapping[str, tuple[float, ...]] = {
-    "max": (1.0,), "min": (-1.0,), "peak": (1.0, -1.0), "range": (1.0, -1.0), "argmax": (1.0,), "argmin": (-1.0,)
-}  # fmt: skip
+    "max": (1.0,),
+    "min": (-1.0,),
+    "peak": (1.0, -1.0),
+    "range": (1.0, -1.0),
+    "argmax": (1.0,),
+    "argmin": (-1.0,),
+}
 EVEN = ("mean", "rms", "excess")
 #: Kinds that limit positions give of an output that has some.
 OF_LIMITS = ("max", "min", "range", "argmax", "argmin")
@@ -133,8 +138,7 @@ class Summaries(ABC):
         sides, pieces = self.asked.sides, self.pieces
         strokes = {stroke: self._on_stroke(*stroke) for stroke in {stroke for *_, stroke in sides} if stroke}
         rows, side, piece = pieces.contenders(
-            [(k, sign) for k, sign, _ in sides],
-            [stroke and strokes[stroke] for *_, stroke in sides],
+            [(k, sign) for k, sign, _ in sides], [stroke and strokes[stroke] for *_, stroke in sides]
         )
         place, value = climbed(rows)
         signals = np.array([k for k, *_ in sides], dtype=np.intp)

@@ -88,8 +88,7 @@ def reductions(summaries: Iterable[Summary], quantities: Mapping[str, Quantity])
         if quantities[summary.output].reference is not None and summary.kind not in _GROWING:
             raise RequestError(
                 _(
-                    "{name!r}: an angle has {kinds} in a study; take one of these, or the mean or rms of "
-                    "its rate",
+                    "{name!r}: an angle has {kinds} in a study; take one of these, or the mean or rms of its rate",
                     code="study.angle_summary",
                     name=summary.name,
                     kinds=tuple(sorted(_GROWING)),
@@ -101,18 +100,13 @@ def reductions(summaries: Iterable[Summary], quantities: Mapping[str, Quantity])
 
 
 def finished(
-    summary: Summary,
-    quantity: Quantity,
-    results: Mapping[str, Floats | Integers],
-    input_: Floats,
+    summary: Summary, quantity: Quantity, results: Mapping[str, Floats | Integers], input_: Floats
 ) -> Floats:
     """The summary (designs,) from its reductions; NaN where no position counts."""
     if summary.kind in ("argmin", "argmax"):
         place = np.asarray(results[f"{summary.output}.{summary.kind}"], dtype=np.int64)
         return np.where(place >= 0, input_[np.maximum(place, 0)], np.nan)
-    parts = [
-        quantity.shown(np.asarray(results[f"{summary.output}.{k}"], dtype=float)) for k in KINDS[summary.kind]
-    ]
+    parts = [quantity.shown(np.asarray(results[f"{summary.output}.{k}"], dtype=float)) for k in KINDS[summary.kind]]
     if summary.kind == "range":
         return np.asarray(parts[1] - parts[0])
     if summary.kind == "peak":

@@ -231,14 +231,10 @@ def _mapped(output: Mapping[str, str], label: str, source: Mechanism | str | Pat
 
 def _nothing_shared(labels: Sequence[str], own: Sequence[Sequence[str]]) -> str:
     named = [
-        _("{label!r} has {names}", label=label, names=tuple(names))
-        if names
-        else _("{label!r} has none", label=label)
+        _("{label!r} has {names}", label=label, names=tuple(names)) if names else _("{label!r} has none", label=label)
         for label, names in zip(labels, own, strict=True)
     ]
-    example = ", ".join(
-        f"{label!r}: {(names or ['…'])[0]!r}" for label, names in zip(labels, own, strict=True)
-    )
+    example = ", ".join(f"{label!r}: {(names or ['…'])[0]!r}" for label, names in zip(labels, own, strict=True))
     return _(
         "the alternatives share no output to compare: {alternatives}; specify which output of each is "
         "meant, such as output={{{example}}} (on the command line --of, one name per file)",

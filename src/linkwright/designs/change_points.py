@@ -59,9 +59,7 @@ class ChangePoints:
         sines = {name: each.facts["sine"] for name, each in placed.items() if "sine" in each.facts}
         self.sines = NumpyProgram(Program.of(traced.solver.motion.trace, sines)) if sines else None
         near = {name: each.facts["distance²"] for name, each in placed.items() if "distance²" in each.facts}
-        pins = Program.of(
-            traced.solver.motion.trace, {**near, **{f"quality {k}": placed[k].quality for k in near}}
-        )
+        pins = Program.of(traced.solver.motion.trace, {**near, **{f"quality {k}": placed[k].quality for k in near}})
         self.pins = NumpyProgram(pins) if near else None
         self.pins_anywhere = NumpyProgram(_anywhere(pins)) if near else None
         self.along = NumpyProgram(program)
@@ -77,9 +75,7 @@ class ChangePoints:
         return np.concatenate(found) if found else np.empty(0, dtype=np.intp)
 
     def _block(self, columns: Mapping[str, Floats]) -> Indices:
-        return np.unique(
-            np.concatenate([self._low(columns), self._parallel(columns), self._meeting(columns)])
-        )
+        return np.unique(np.concatenate([self._low(columns), self._parallel(columns), self._meeting(columns)]))
 
     def _along(self, program: NumpyProgram, table: Floats) -> Floats:
         """Outputs at all positions, (designs, outputs, n); compiled where that pays."""
@@ -110,9 +106,7 @@ class ChangePoints:
         def at(share: Floats) -> Floats:
             return anywhere.run_designs(own, {}, self._inputs(place, share), length=share.shape[1])
 
-        share, smallest = lowest(
-            lambda s: np.asarray(at(s)[rows, group]), np.zeros(len(place)), np.ones(len(place))
-        )
+        share, smallest = lowest(lambda s: np.asarray(at(s)[rows, group]), np.zeros(len(place)), np.ones(len(place)))
         quality = at(share[:, None])[rows, groups + group, 0]
         return np.unique(design[(quality < -TOUCH) | (smallest <= MEETING * largest[design, group, 0])])
 
@@ -123,9 +117,7 @@ class ChangePoints:
         positions = self.traced.positions
         table = self.traced.table(self.sines.program, columns)
         sign = np.sign(self._along(self.sines, table))
-        next_sign = (
-            np.roll(sign, -1, axis=2) if positions.closed else sign[:, :, [*range(1, sign.shape[2]), -1]]
-        )
+        next_sign = np.roll(sign, -1, axis=2) if positions.closed else sign[:, :, [*range(1, sign.shape[2]), -1]]
         return np.flatnonzero((sign * next_sign < 0.0).any(axis=(1, 2)))
 
     def _low(self, columns: Mapping[str, Floats]) -> Indices:
@@ -136,9 +128,7 @@ class ChangePoints:
         before, after = np.roll(quality, 1, axis=2), np.roll(quality, -1, axis=2)
         if not self.traced.positions.closed:
             before[:, :, 0] = after[:, :, -1] = np.inf
-        valleys = (
-            (np.abs(quality) < near_enough(self.traced.positions)) & (quality <= before) & (quality < after)
-        )
+        valleys = (np.abs(quality) < near_enough(self.traced.positions)) & (quality <= before) & (quality < after)
         design, group, place = np.nonzero(valleys)
         if not len(design):
             return design

@@ -143,9 +143,7 @@ def changed_text(document: Document, values: Mapping[str, float]) -> str:
         elif not (drawn and address in drawn_dimensions(old)):
             near = offered(address, old.dimensions())
             raise LinkwrightError(
-                with_remedy(
-                    _('the file has no place for "{address}"', code="model.no_place", address=address), near
-                )
+                with_remedy(_('the file has no place for "{address}"', code="model.no_place", address=address), near)
             )
     if drawn:
         motion = as_drawn(old, new)

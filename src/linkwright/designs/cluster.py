@@ -138,9 +138,7 @@ def _computed(
         client.cancel(list(numbers))
 
 
-def in_order(
-    client: Any, work: Callable[..., Any], tasks: Sequence[tuple[Any, ...]], own: str
-) -> Iterator[Any]:
+def in_order(client: Any, work: Callable[..., Any], tasks: Sequence[tuple[Any, ...]], own: str) -> Iterator[Any]:
     """Results in the order of the tasks; at most ``HELD`` wait for those before them, so that memory stays fixed."""
     for first in range(0, len(tasks), HELD):
         found = dict(in_turn(client, work, tasks[first : first + HELD], own))

@@ -57,10 +57,7 @@ class Row:
     @property
     def comparable(self) -> bool:
         """Whether every alternative has a value of the same dimension."""
-        return (
-            all(each is not None for each in self.values)
-            and len({v.dimension for v in self.values if v}) == 1
-        )
+        return all(each is not None for each in self.values) and len({v.dimension for v in self.values if v}) == 1
 
     def score(self, index: int) -> float:
         """1 for the best, else how near the value comes to it: best/value where lower is better, or the inverse."""
@@ -145,8 +142,10 @@ class Comparison(PlotMixin, Tabular, Frozen):
 
     def columns(self) -> dict[str, Any]:
         """The criteria with SI units, and the values of every alternative; NaN where a metric does not apply."""
-        names = [f"{row.criterion.name} [{unit}]" if (unit := si_unit(row.dimension)) else row.criterion.name
-                 for row in self.rows]  # fmt: skip
+        names = [
+            f"{row.criterion.name} [{unit}]" if (unit := si_unit(row.dimension)) else row.criterion.name
+            for row in self.rows
+        ]
         found = ([math.nan if each is None else each.value for each in row.values] for row in self.rows)
         columns: dict[str, Any] = {"metric": names}
         for label, values in zip(self.labels, zip(*found, strict=True), strict=True):
@@ -251,9 +250,7 @@ def compare(
         if metrics is None and all(value is None for value in values):
             continue
         if metrics is not None and all(value is None for value in values):
-            known: object = [note for a in found for note in a.notes] or _(
-                "leave it out", code="study.leave_out"
-            )
+            known: object = [note for a in found for note in a.notes] or _("leave it out", code="study.leave_out")
             raise RequestError(
                 _(
                     "{name!r} does not apply to any of the alternatives: {known}",
@@ -313,7 +310,5 @@ def _weights(weights: Mapping[str, float], asked: Sequence[Criterion]) -> Mappin
             )
     judged = [each.name for each in asked if each.better]
     if judged and all(weights.get(name, 1.0) == 0.0 for name in judged):
-        raise RequestError(
-            _("all weights are zero; give one metric a weight above zero", code="study.all_zero")
-        )
+        raise RequestError(_("all weights are zero; give one metric a weight above zero", code="study.all_zero"))
     return weights

@@ -117,9 +117,7 @@ def numbers_of(
         index = int(designs[place])
         rest = [name for name, row in zip(names, unsure, strict=True) if row[place]]
         changes = changes_of(columns, index)
-        numbers, why, notes = checkpointed(
-            partial(alone, changes, rest), partial(tuple, (own, changes, *rest))
-        )
+        numbers, why, notes = checkpointed(partial(alone, changes, rest), partial(tuple, (own, changes, *rest)))
         found.troubled.update({index: why} if why else {})
         found.notes.update(dict.fromkeys(notes))
         for name, (value, dimension) in numbers.items():
@@ -160,9 +158,8 @@ def swept_numbers(
     """
     alone = partial(_alone, mechanism, in_part)
     found = numbers_of(
-        mechanism, columns, names, designs, alone, (in_part,),
-        threads=threads, backend=backend, progress=progress,
-    )  # fmt: skip
+        mechanism, columns, names, designs, alone, (in_part,), threads=threads, backend=backend, progress=progress
+    )
     idle = [name for name in names if name not in found.dimensions]
     if idle and len(designs) > len(found.troubled):
         if (missing := unloaded(mechanism, idle)) is not None:

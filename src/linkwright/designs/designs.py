@@ -126,12 +126,7 @@ class Sweep(PlotMixin, Tabular, Frozen):
     def data(self) -> dict[str, Any]:
         """Plain data, SI."""
         columns = {name: values.tolist() for name, values in self.columns().items()}
-        return {
-            "name": self.mechanism.name,
-            "designs": self.designs,
-            "columns": columns,
-            "notes": list(self.notes),
-        }
+        return {"name": self.mechanism.name, "designs": self.designs, "columns": columns, "notes": list(self.notes)}
 
     def __repr__(self) -> str:
         passing = int(self.ok.sum())
@@ -201,9 +196,15 @@ def sweep(
     if numbers:
         chosen = np.flatnonzero(assembled > 0 if partial else passed)
         found = swept_numbers(
-            mechanism, columns, numbers, chosen, in_part=partial, threads=threads, backend=backend,
+            mechanism,
+            columns,
+            numbers,
+            chosen,
+            in_part=partial,
+            threads=threads,
+            backend=backend,
             progress=part_of(progress, 1, stages),
-        )  # fmt: skip
+        )
         dimensions = found.dimensions
         values |= {each: found.values[each.name] for each in asked if each.name in found.values}
         run.unloaded |= found.troubled
@@ -231,17 +232,21 @@ def _shared(client: Any, run: SweepRun, asked: Sequence[Summary], steps: int | N
     for number, piece in in_turn(client, _piece, tasks, run.own):
         found[number] = piece
         run.tell(run.designs * len(found) // len(tasks))
-    assembled, passed, summaries, unloaded, margins, dimensions = zip(
-        *map(found.get, range(len(tasks))), strict=True
-    )
+    assembled, passed, summaries, unloaded, margins, dimensions = zip(*map(found.get, range(len(tasks))), strict=True)
     return Sweep(
-        run.mechanism, run.columns, run.positions.count, steps, np.concatenate(assembled),
+        run.mechanism,
+        run.columns,
+        run.positions.count,
+        steps,
+        np.concatenate(assembled),
         np.concatenate(passed),
-        dict(zip(asked, map(np.concatenate, zip(*summaries, strict=True)), strict=True)), run.quantities,
+        dict(zip(asked, map(np.concatenate, zip(*summaries, strict=True)), strict=True)),
+        run.quantities,
         {each.start + k: why for each, some in zip(places, unloaded, strict=True) for k, why in some.items()},
-        run.traced.nominal.notes, None if margins[0] is None else np.concatenate(margins),
+        run.traced.nominal.notes,
+        None if margins[0] is None else np.concatenate(margins),
         {name: kind for each in dimensions for name, kind in each.items()},
-    )  # fmt: skip
+    )
 
 
 def _tasks(run: SweepRun, *rest: object) -> tuple[list[slice], list[tuple[Any, ...]]]:
@@ -260,14 +265,8 @@ def _piece(
     backend: Backend,
 ) -> _Piece:
     """What a sweep of some designs finds, on a worker of a cluster."""
-    found = sweep(
-        mechanism, columns, outputs=outputs, steps=steps, partial=partial, threads=1, backend=backend
-    )
-    summaries, unloaded, dimensions = (
-        [*found.summaries.values()],
-        dict(found.unloaded),
-        dict(found.dimensions),
-    )
+    found = sweep(mechanism, columns, outputs=outputs, steps=steps, partial=partial, threads=1, backend=backend)
+    summaries, unloaded, dimensions = ([*found.summaries.values()], dict(found.unloaded), dict(found.dimensions))
     return found.assembled, found.ok, summaries, unloaded, found.branch_margin, dimensions
 
 
@@ -308,7 +307,5 @@ def _curves(
     mechanism: Mechanism, columns: Mapping[str, Floats], outputs: list[str], steps: int, backend: Backend
 ) -> dict[str, Floats]:
     """The curves of at most ``SHARED`` designs, which are one block."""
-    ((_unused, found),) = sweep_curves(
-        mechanism, columns, outputs=outputs, steps=steps, threads=1, backend=backend
-    )
+    ((_unused, found),) = sweep_curves(mechanism, columns, outputs=outputs, steps=steps, threads=1, backend=backend)
     return found

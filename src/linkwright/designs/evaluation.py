@@ -124,8 +124,7 @@ def sentences(comparison: Comparison, language: str) -> list[str]:
 def _motion(each: Alternative, say: Translate) -> str:
     return say(
         _(
-            "in {label} the output {output} travels {travel}, at most {rate} fast, with "
-            "accelerations up to {second}",
+            "in {label} the output {output} travels {travel}, at most {rate} fast, with accelerations up to {second}",
             label=each.label,
             output=str(each.output),
             travel=_measured(each, "travel") or value_text(each.way, each.output.dimension),

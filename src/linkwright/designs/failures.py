@@ -93,15 +93,11 @@ def _misfits(mechanism: Mechanism, columns: Mapping[str, Floats]) -> dict[int, M
     return found
 
 
-def _by_group(
-    mechanism: Mechanism, columns: Mapping[str, Floats], numbers: Indices, count: int
-) -> list[Failure]:
+def _by_group(mechanism: Mechanism, columns: Mapping[str, Floats], numbers: Indices, count: int) -> list[Failure]:
     """Each design under the group that fails at most of its positions."""
     traced = _traced(mechanism, columns, count)
     if traced.solver.motion.next_states:
-        groups = (
-            g.name for g in traced.solver.structure.groups if traced.solver.motion.placed[g.name].next_states
-        )
+        groups = (g.name for g in traced.solver.structure.groups if traced.solver.motion.placed[g.name].next_states)
         sentence = sentence_of(traced, changes_of(columns, 0))
         return [Failure(next(groups, None), "followed", numbers, sentence)]
     flags = traced.failure_flags()
@@ -109,9 +105,7 @@ def _by_group(
     wanted = [Reduction(name, "sum") for name in program.output_names]
     table = traced.table(program, columns)
     results = summaries(program, wanted, None).evaluate(table, traced.positions.arrays)
-    sums = np.array(
-        [results[reduction.name] for reduction in wanted] or [np.zeros(len(numbers))], dtype=float
-    )
+    sums = np.array([results[reduction.name] for reduction in wanted] or [np.zeros(len(numbers))], dtype=float)
     worst = np.argmax(sums, axis=0)
     found = []
     between = np.flatnonzero(sums.max(axis=0) == 0)

@@ -62,9 +62,7 @@ def known_loads(plain: Traced, fields: Iterable[str], by: tuple[str, ...]) -> Kn
     if rubbing and not can_be_traced(plain.forces.friction):
         raise LinkwrightError(FRICTION_SLOPE)
     fields_needed = [
-        name
-        for name in (plain.forces.fields_needed() if rubbing else fields)
-        if name not in plain.nominal.states
+        name for name in (plain.forces.fields_needed() if rubbing else fields) if name not in plain.nominal.states
     ]
     if not fields_needed:
         return KnownLoads()

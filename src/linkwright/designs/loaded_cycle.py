@@ -52,9 +52,7 @@ class LoadedCycle:
     def sizes(self) -> dict[str, Scalar]:
         """Magnitudes of loads, and the friction, by the names of the fields that forces know them by."""
         motion, friction = self.traced.solver.motion, self.traced.forces.programs.friction
-        loads = {
-            row_name("magnitude", name): traced_magnitude(motion, name) for name in sorted(self.loads.names)
-        }
+        loads = {row_name("magnitude", name): traced_magnitude(motion, name) for name in sorted(self.loads.names)}
         return loads if friction is None else {**loads, **friction.sizes}
 
     @property

@@ -11,12 +11,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.analysis.by_name import is_metric
 from linkwright.analysis.hulls_of_designs import swept
-from linkwright.analysis.of_designs import (
-    MetricsOfDesigns,
-    NumbersOfDesigns,
-    numbers_of_designs,
-    refuse_obstacles,
-)
+from linkwright.analysis.of_designs import MetricsOfDesigns, NumbersOfDesigns, numbers_of_designs, refuse_obstacles
 from linkwright.core.arguments import STEPS, one_of, require
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
@@ -180,9 +175,7 @@ def objective(
     weights = weighted(terms)
     sampled = steps is not None or at is not None or not mechanism.drivers
     numbers = {
-        term: weight
-        for term, weight in weights.items()
-        if isinstance(term, str) and (is_metric(term) or not sampled)
+        term: weight for term, weight in weights.items() if isinstance(term, str) and (is_metric(term) or not sampled)
     }
     others = {term: weight for term, weight in weights.items() if term not in numbers}
     compiled: Backend = "llvm" if backend == "auto" and available() else backend
@@ -257,7 +250,7 @@ def _refusal(mechanism: Mechanism, names: tuple[str, ...], missing: list[str]) -
             return _(
                 "{name!r}: the load {load!r} has the sign of the rate of {output}, which changes it "
                 "{count} times in a turn, where gradients with groups without closed form take two "
-                "changes; for summaries use sensitivity with steps, for design numbers study",
+                "changes; for summaries use sensitivity with steps, for design numbers study"
             ).format(name=mechanism.name, **values)
     return NO_GRADIENTS.format(name=mechanism.name)
 
@@ -286,8 +279,7 @@ def _of_positions(
     if not positions.count:
         raise RequestError(
             _(
-                "no positions are given; give an input or a time, or leave at and times out for the "
-                "whole cycle",
+                "no positions are given; give an input or a time, or leave at and times out for the whole cycle",
                 code="motion.no_positions",
             )
         )
@@ -308,6 +300,4 @@ def _of_positions(
 def _refuse_moved_cycle(mechanism: Mechanism, names: Iterable[str], positions: Positions) -> None:
     """Raises RequestError for a dimension with which the cycle changes, so that its numbers have no derivative."""
     known = mechanism.dimensions()
-    refuse_moved_positions(
-        mechanism, positions, {name: np.array([1.001 * known[name] or 1e-3]) for name in names}
-    )
+    refuse_moved_positions(mechanism, positions, {name: np.array([1.001 * known[name] or 1e-3]) for name in names})

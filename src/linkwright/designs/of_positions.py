@@ -45,11 +45,7 @@ def note_of_positions(
             steps=steps,
         )
     summary, sampled, exact, dimension = worst
-    values = {
-        "there": shown(sampled, dimension),
-        "between": shown(exact, dimension),
-        "share": f"{100.0 * off:.2g}",
-    }
+    values = {"there": shown(sampled, dimension), "between": shown(exact, dimension), "share": f"{100.0 * off:.2g}"}
     return _(
         "minima, maxima and means of outputs are those of the {steps} positions: {name} of "
         "the machine as it is is {there} there, but {between} between them ({share} % of the "

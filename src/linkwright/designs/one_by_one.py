@@ -63,9 +63,7 @@ def outputs_alone(motion: Motion, quantities: Iterable[Quantity]) -> dict[str, F
     words = [name for name, each in asked.items() if not each.output.of_course]
     names = tuple(map(words_name, words))
     if all(each.output.of_motion for each in asked.values()):
-        values = (
-            ForceSolver(motion.solver).evaluate(names, motion, {}) if names else np.empty((0, motion.steps))
-        )
+        values = ForceSolver(motion.solver).evaluate(names, motion, {}) if names else np.empty((0, motion.steps))
     else:
         values = run_forces(motion, False).evaluate(names)
     found = dict(zip(words, np.where(motion.ok, values, np.nan), strict=True))
@@ -98,9 +96,7 @@ def sentence_of(traced: Traced, changes: Mapping[str, float]) -> str:
     except LinkwrightError as error:
         return error.sentence
     return (
-        _(
-            "it could not be tracked from position to position together with the others; give more steps",
-        )
+        _("it could not be tracked from position to position together with the others; give more steps")
         if motion.complete
         else motion.refusal().sentence
     )

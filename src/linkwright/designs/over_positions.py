@@ -75,9 +75,7 @@ class OverPositions:
         bars = dict(zip(self.gradient.wrt, slopes.T, strict=True))
         found = {name: bars.get(name, np.zeros(len(values))) for name in self.names}
         if limits is not None:
-            for name, slope in limits.pull(
-                {k: bar for k, bar in bars.items() if k in limits.numbers}
-            ).items():
+            for name, slope in limits.pull({k: bar for k, bar in bars.items() if k in limits.numbers}).items():
                 if name in found:
                     found[name] = found[name] + slope
         values = self._known(values, limits)
@@ -112,11 +110,7 @@ class Builder:
     """Traces what the terms need into one program."""
 
     def __init__(
-        self,
-        mechanism: Mechanism,
-        names: tuple[str, ...],
-        positions: Positions,
-        terms: dict[str | PathError, float],
+        self, mechanism: Mechanism, names: tuple[str, ...], positions: Positions, terms: dict[str | PathError, float]
     ) -> None:
         self.terms, self.names = terms, names
         self.iterated = bool(iterated(analysed(mechanism)))
@@ -172,9 +166,7 @@ class Builder:
         program = Program.of(self.traced.solver.motion.trace, {**outputs, VALID: self._valid(tracked)})
         program = program.with_inputs(self.turns, "position")
         limits = self.loaded.limits
-        moving = [
-            name for name in program.parameters if name.startswith(("limit:", "limit input:", "value:"))
-        ]
+        moving = [name for name in program.parameters if name.startswith(("limit:", "limit input:", "value:"))]
         own = [name for name in self.names if name in program.parameters]
         arrays = {**self.traced.positions.arrays, **self.turns, **targets}
         behind = limits.dimensions if limits is not None and moving else ()

@@ -28,10 +28,7 @@ class Overlay:
 
 def overlays(alternatives: Sequence[Alternative]) -> tuple[Overlay, ...]:
     """Output, its rates, pivot reaction with its hodograph, input torque."""
-    found = [
-        _motion(alternatives, name, place)
-        for place, name in enumerate(("travel", "velocity", "acceleration"))
-    ]
+    found = [_motion(alternatives, name, place) for place, name in enumerate(("travel", "velocity", "acceleration"))]
     if any(each.loaded for each in alternatives):
         sizes = {a.label: (_passed(a), np.hypot(*a.pivot_force.T)) for a in alternatives}
         hodograph = {a.label: (a.pivot_force[:, 0], a.pivot_force[:, 1]) for a in alternatives}
@@ -47,9 +44,7 @@ def overlays(alternatives: Sequence[Alternative]) -> tuple[Overlay, ...]:
 def _motion(alternatives: Sequence[Alternative], name: str, place: int) -> Overlay:
     turning = all(each.output.kind == "angle" for each in alternatives)
     kinds = (
-        ("angle", "angular_velocity", "angular_acceleration")
-        if turning
-        else ("length", "velocity", "acceleration")
+        ("angle", "angular_velocity", "angular_acceleration") if turning else ("length", "velocity", "acceleration")
     )
     return Overlay(name, kinds[place], {a.label: (_passed(a), a.travel()[place]) for a in alternatives})
 

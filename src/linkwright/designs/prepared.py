@@ -73,9 +73,7 @@ class Prepared:
     def __repr__(self) -> str:
         return f"Prepared({self.mechanism.name!r}: {', '.join(self.vary)}; {self.positions.count} positions)"
 
-    def __init__(
-        self, mechanism: Mechanism, vary: tuple[str, ...], positions: Positions, backend: Backend
-    ) -> None:
+    def __init__(self, mechanism: Mechanism, vary: tuple[str, ...], positions: Positions, backend: Backend) -> None:
         self.mechanism = mechanism
         self.vary = vary
         self.positions = positions
@@ -114,8 +112,7 @@ class Prepared:
         motion, trace = traced.solver.outputs, traced.solver.motion.trace
         others = [name for name in self._names if name != NEAREST and name not in self._sizes]
         values = {
-            name: (motion if name in motion.standard else traced.forces.outputs).value(name)
-            for name in others
+            name: (motion if name in motion.standard else traced.forces.outputs).value(name) for name in others
         } | self._sizes
         solved = trace.logic("and", traced.solver.motion.valid, self._loaded.sound)
         if self._near is not None:

@@ -129,12 +129,7 @@ def _quantity(part: str, unit: str, address: str, text: str) -> tuple[float, str
     value = float(number) * factor
     if not math.isfinite(value):
         raise RequestError(
-            _(
-                "{address}={text}: a value is not finite",
-                code="study.value_not_finite",
-                address=address,
-                text=text,
-            )
+            _("{address}={text}: a value is not finite", code="study.value_not_finite", address=address, text=text)
         )
     return value, own
 
@@ -145,8 +140,7 @@ def _count(text: str | None, address: str, full_text: str) -> int:
     if not text.strip().isdecimal() or int(text) < 1:
         raise RequestError(
             _(
-                '{address}={value}: invalid number of values "{text}"; end a range in an integer, '
-                "such as :11",
+                '{address}={value}: invalid number of values "{text}"; end a range in an integer, such as :11',
                 code="study.no_count",
                 address=address,
                 value=full_text,

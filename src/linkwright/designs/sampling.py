@@ -44,11 +44,7 @@ def sobol(ranges: Sequence[Range], samples: int, seed: int, sampling: str) -> di
     """
     if sampling != "sobol":
         raise RequestError(
-            _(
-                "there is no sampling {sampling!r}; use grid or sobol",
-                code="study.no_sampling",
-                sampling=sampling,
-            )
+            _("there is no sampling {sampling!r}; use grid or sobol", code="study.no_sampling", sampling=sampling)
         )
     samples, seed = integer("samples", samples), integer("seed", seed)
     if not 1 <= samples <= MOST:

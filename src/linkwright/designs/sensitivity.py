@@ -106,8 +106,7 @@ class Sensitivity(PlotMixin, Tabular, Frozen):
     def tables(self, language: str = "en") -> tuple[Table, ...]:
         """Every summary with its derivative by each dimension, SI, and what has curves."""
         rows: list[list[Cell]] = [
-            [summary.name, *map(Amount, (self.values[summary], *row))]
-            for summary, row in self.gradients.items()
+            [summary.name, *map(Amount, (self.values[summary], *row))] for summary, row in self.gradients.items()
         ]
         title = _("Sensitivity of {name!r} (SI units)", name=self.mechanism.name)
         curves = _("curves: {curves}; by {names}", curves=", ".join(self.curves), names=", ".join(self.by))
@@ -125,11 +124,7 @@ class Sensitivity(PlotMixin, Tabular, Frozen):
                 for summary, value in self.values.items()
             ],
             "curves": [
-                {
-                    "output": name,
-                    "values": v.tolist(),
-                    "slopes": [self.slopes[name, by].tolist() for by in self.by],
-                }
+                {"output": name, "values": v.tolist(), "slopes": [self.slopes[name, by].tolist() for by in self.by]}
                 for name, v in self.curves.items()
             ],
         }
@@ -141,8 +136,7 @@ class Sensitivity(PlotMixin, Tabular, Frozen):
         if output not in self.curves:
             raise RequestError(
                 _(
-                    "no curve of {output!r} was asked for; name an output without a summary, as in "
-                    "of=['jaw.angle']",
+                    "no curve of {output!r} was asked for; name an output without a summary, as in of=['jaw.angle']",
                     code="study.no_curve",
                     output=output,
                 )
@@ -282,9 +276,7 @@ class _Derivation:
         values = {each: found[each][0] for each in (*self.sampled, *self.numbers)}
         gradients = {each: found[each][1] for each in values}
         input_ = self.traced.nominal.input if self.traced.mechanism.drivers else np.zeros(1)
-        return Sensitivity(
-            self.traced.mechanism, self.by, input_, curves, slopes, values, gradients, self.quantities
-        )
+        return Sensitivity(self.traced.mechanism, self.by, input_, curves, slopes, values, gradients, self.quantities)
 
     def _curve(self, name: str) -> Floats:
         """Values of an output; an angle and what has one in its formula as the motion gives it, continuous over the

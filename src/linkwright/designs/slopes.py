@@ -80,9 +80,9 @@ class Slopes:
         table = np.array([[self.numbers[each] for each in gradient.parameters]])
         known = {each: self.inputs[each] for each in program.fields}
         fields = {each: row[None, :] for each, row in {**known, f"seed:{name}": seeds}.items()}
-        slopes = gradient.evaluate(
-            table, self.traced.arrays, fields, tables=self.loads.tables, backend=self.backend
-        )[1][0]
+        slopes = gradient.evaluate(table, self.traced.arrays, fields, tables=self.loads.tables, backend=self.backend)[
+            1
+        ][0]
         for each, slope in zip(by, slopes, strict=True):
             found += slope * self._by(each)
         return found
@@ -119,10 +119,7 @@ class Slopes:
             compiled = compile_program(program)
             if compiled is None:
                 raise LinkwrightError(
-                    _(
-                        "llvmlite cannot be loaded: install it, or use the numpy back end",
-                        code="study.no_llvmlite",
-                    )
+                    _("llvmlite cannot be loaded: install it, or use the numpy back end", code="study.no_llvmlite")
                 )
             rows = {name: row[None, :] for name, row in inputs.items()}
             return np.array(compiled.store(numbers[None, :], arrays, rows, length=count, tables=tables)[0])

@@ -81,9 +81,7 @@ class Study(PlotMixin, Tabular, Frozen):
             if name in columns:
                 return columns[name]
         hint = offered(name, [*self.metrics, *self.varied])
-        raise RequestError(
-            with_remedy(_("{name!r} is not in the study", code="study.not_in_study", name=name), hint)
-        )
+        raise RequestError(with_remedy(_("{name!r} is not in the study", code="study.not_in_study", name=name), hint))
 
     def best(self, metric: str) -> int:
         """Number of the design that is best in a metric.
@@ -137,11 +135,7 @@ class Study(PlotMixin, Tabular, Frozen):
             "varied": {address: values.tolist() for address, values in self.varied.items()},
             "units": {each.address: each.si for each in self.ranges},
             "metrics": {
-                name: {
-                    "unit": si_unit(self.dimensions[name]),
-                    "better": self.better[name],
-                    "values": values.tolist(),
-                }
+                name: {"unit": si_unit(self.dimensions[name]), "better": self.better[name], "values": values.tolist()}
                 for name, values in self.metrics.items()
             },
             "best": {name: self.best(name) for name in self.metrics if self.has_best(name)},
@@ -262,19 +256,32 @@ class _Work:
         self._refuse_idle(ok)
         better = {each.name: each.better for each in self.asked}
         return Study(
-            self.mechanism, ranges, self.columns, self.values, self.dimensions, better, ok, tuple(failures), sampling,
+            self.mechanism,
+            ranges,
+            self.columns,
+            self.values,
+            self.dimensions,
+            better,
+            ok,
+            tuple(failures),
+            sampling,
             (*found.of_motion, *self.notes),
-        )  # fmt: skip
+        )
 
     def found(self, asked: list[Criterion], designs: Indices, together: bool) -> None:
         """Numbers of the designs, at once as far as they are certain so (``together``), the others one by one."""
         names = {each.name: each for each in asked}
         found = numbers_of(
-            self.mechanism, self.columns, [*names], designs,
+            self.mechanism,
+            self.columns,
+            [*names],
+            designs,
             lambda changes, some: self._measured(changes, [names[each] for each in some]),
             (str(self.output), self.fluctuation, self.steps),
-            asked=Asked(self.output, self.fluctuation), together=together, progress=self.progress,
-        )  # fmt: skip
+            asked=Asked(self.output, self.fluctuation),
+            together=together,
+            progress=self.progress,
+        )
         for name, values in found.values.items():
             self.values[name][designs] = values[designs]
         self.dimensions |= found.dimensions
@@ -303,9 +310,7 @@ class _Work:
     @cached_property
     def _own(self) -> str:
         """What the numbers of all designs depend on."""
-        return identity(
-            dump(replace(self.mechanism, optimize={})), str(self.output), self.fluctuation, self.steps
-        )
+        return identity(dump(replace(self.mechanism, optimize={})), str(self.output), self.fluctuation, self.steps)
 
     def _closed(self) -> bool:
         """Whether there is a group with a closed form."""
@@ -321,11 +326,7 @@ class _Work:
         self, changes: dict[str, float], asked: list[Criterion]
     ) -> tuple[dict[str, tuple[float, str]], str, list[str]]:
         """Numbers with their dimensions, why others are missing, and notes."""
-        design, numbers, troubled = (
-            self.mechanism.with_dimensions(changes),
-            dict[str, tuple[float, str]](),
-            "",
-        )
+        design, numbers, troubled = (self.mechanism.with_dimensions(changes), dict[str, tuple[float, str]](), "")
         each = Alternative(design.name, design, self.output, self.steps, self.fluctuation)
         with suppress(LinkwrightError):  # where nothing is solved, measuring tells
             ask((criterion.name for criterion in asked), each.analysis, each.asked)
@@ -371,12 +372,7 @@ class _Work:
 
 
 def _piece(
-    mechanism: Mechanism,
-    columns: Mapping[str, Floats],
-    names: list[str],
-    output: str,
-    fluctuation: float,
-    steps: int,
+    mechanism: Mechanism, columns: Mapping[str, Floats], names: list[str], output: str, fluctuation: float, steps: int
 ) -> _Piece:
     """Numbers of some designs, on a worker of a cluster: values, dimensions, notes, and what is wrong with which."""
     asked = criteria(names)

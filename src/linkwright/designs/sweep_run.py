@@ -105,9 +105,7 @@ class SweepRun:
         size = ALONE_BLOCK if self._loaded is None else TOGETHER_BLOCK if self._under_loads else BLOCK
         size = size if self._tracked is None else TRACKED_BLOCK
         for first, end in chunks(self.designs, size):
-            results = self._block(
-                {address: column[first:end] for address, column in self.columns.items()}, first
-            )
+            results = self._block({address: column[first:end] for address, column in self.columns.items()}, first)
             assembled[first:end], passed[first:end] = results[VALID_COUNT], results[PASSED] > 0
             if self.margins is not None:
                 self.margins[first:end] = results[MARGIN]
@@ -165,9 +163,7 @@ class SweepRun:
         """The outputs of a block, (designs, n) each; stored in the current checkpoints."""
         return checkpointed(lambda: self._curves_found(names, part, first), lambda: (self.own, part, *names))
 
-    def _curves_found(
-        self, names: Sequence[str], part: Mapping[str, Floats], first: int
-    ) -> dict[str, Floats]:
+    def _curves_found(self, names: Sequence[str], part: Mapping[str, Floats], first: int) -> dict[str, Floats]:
         passed = self._block(part, first)[PASSED] > 0
         alone = np.isin(np.arange(first, first + len(passed)), list(self.alone))
         values = np.full((len(passed), len(names), self.positions.count), np.nan)
@@ -309,12 +305,7 @@ class SweepRun:
         threads = self.manner.threads or cores()
         states, margin = ({}, None) if self._tracked is None else self._tracked.of(part, threads)
         limits = loaded.solve(part)
-        return (
-            loaded.table(program.parameters, part, limits.numbers if limits else {}),
-            states,
-            margin,
-            limits,
-        )
+        return (loaded.table(program.parameters, part, limits.numbers if limits else {}), states, margin, limits)
 
     def _together(self, loaded: LoadedCycle, part: Mapping[str, Floats]) -> tuple[Results, Indices]:
         """The results of a block, and the numbers of the designs that are to be found alone.

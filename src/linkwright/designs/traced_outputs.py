@@ -98,9 +98,7 @@ class Traced:
         """The outputs by their names."""
         return {name: self.named.quantity(name) for name in dict.fromkeys(names)}
 
-    def program(
-        self, quantities: Mapping[str, Quantity], more: Mapping[str, Scalar | bool] | None = None
-    ) -> Program:
+    def program(self, quantities: Mapping[str, Quantity], more: Mapping[str, Scalar | bool] | None = None) -> Program:
         """What the quantities need, ``more`` outputs, the truth output ``valid``, and how near change points are."""
         motion = self.solver.motion
         outputs: dict[str, Scalar | bool] = {name: each.carrier for name, each in quantities.items()}

@@ -43,9 +43,7 @@ def checked_addresses(mechanism: Mechanism, addresses: Iterable[str]) -> tuple[s
     return wanted
 
 
-def varied_ranges(
-    mechanism: Mechanism, vary: Mapping[str, str | ArrayLike], *, sampled: bool
-) -> tuple[Range, ...]:
+def varied_ranges(mechanism: Mechanism, vary: Mapping[str, str | ArrayLike], *, sampled: bool) -> tuple[Range, ...]:
     """What varies, each a text or values (SI); ``sampled``: any value between the bounds may be taken.
 
     Raises:
@@ -147,8 +145,7 @@ def _column(address: str, values: ArrayLike) -> Floats:
     except (ValueError, TypeError):
         raise RequestError(
             _(
-                "{address}: invalid list of numbers {given}; give SI values, such as [0.05, 0.06] for "
-                "50 and 60 mm",
+                "{address}: invalid list of numbers {given}; give SI values, such as [0.05, 0.06] for 50 and 60 mm",
                 code="study.no_numbers",
                 address=address,
                 given=repr(values)[:60],

@@ -47,17 +47,13 @@ class ConstantSpeed(Law):
     def dimensions(self) -> Mapping[str, float]:
         return {"speed": self.speed, "start": self.start}
 
-    def with_dimensions(
-        self, value: Callable[[str], float], parameters: Mapping[str, float]
-    ) -> ConstantSpeed:
+    def with_dimensions(self, value: Callable[[str], float], parameters: Mapping[str, float]) -> ConstantSpeed:
         return replace(self, speed=value("speed"), start=value("start"))
 
     @classmethod
     def fields(cls, rotary: bool) -> Mapping[str, Field]:
         return {
-            "speed": Quantity(
-                "angular_velocity" if rotary else "velocity", doc=_("constant speed of the joint")
-            ),
+            "speed": Quantity("angular_velocity" if rotary else "velocity", doc=_("constant speed of the joint")),
             "start": Quantity("angle" if rotary else "length", doc=_("coordinate at time 0 (default 0)")),
         }
 

@@ -55,17 +55,13 @@ class ExpressionLaw(Law):
         before, taken = known[rows, at], np.arange(len(at))
         return np.sort(ends(lambda at: positive(at)[rows, taken] == before, t[at], t[at + 1]))
 
-    def with_dimensions(
-        self, value: Callable[[str], float], parameters: Mapping[str, float]
-    ) -> ExpressionLaw:
+    def with_dimensions(self, value: Callable[[str], float], parameters: Mapping[str, float]) -> ExpressionLaw:
         return ExpressionLaw(self.expression, _used(self.expression, parameters), self.rotary)
 
     @classmethod
     def fields(cls, rotary: bool) -> Mapping[str, Field]:
         return {
-            "position": Formula(
-                "angle" if rotary else "length", doc=_("coordinate, an expression of the time t")
-            )
+            "position": Formula("angle" if rotary else "length", doc=_("coordinate, an expression of the time t"))
         }
 
     @classmethod

@@ -73,15 +73,11 @@ class ProgramLaw(Law):
         lift = "angle" if rotary else "length"
         return {
             "start": Quantity(lift, doc=_("coordinate at time 0 (default 0)")),
-            "program": ProgramField(
-                lift, "time", closed=False, doc=_("segments over time, one after the other")
-            ),
+            "program": ProgramField(lift, "time", closed=False, doc=_("segments over time, one after the other")),
         }
 
     @classmethod
-    def from_values(
-        cls, values: Mapping[str, object], rotary: bool, parameters: Mapping[str, float]
-    ) -> ProgramLaw:
+    def from_values(cls, values: Mapping[str, object], rotary: bool, parameters: Mapping[str, float]) -> ProgramLaw:
         from linkwright.laws.program import MotionProgram
 
         program = values["program"]

@@ -92,9 +92,7 @@ class TableLaw(Law):
         return {"table": TimeTable("angle" if rotary else "length", doc=_("positions over time"))}
 
     @classmethod
-    def from_values(
-        cls, values: Mapping[str, object], rotary: bool, parameters: Mapping[str, float]
-    ) -> TableLaw:
+    def from_values(cls, values: Mapping[str, object], rotary: bool, parameters: Mapping[str, float]) -> TableLaw:
         table = values["table"]
         assert isinstance(table, TimeTableValues)
         return cls(table.times, table.positions, table.interpolation, rotary)

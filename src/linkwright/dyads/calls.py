@@ -28,20 +28,31 @@ FORMAL = {
     "rprk": ("m", "n1", "n2", "k1", "k2", "r1", "r2", "vr2", "ar2", *_MOTION),
     "prpk": ("n1", "n2", "n3", "k1", "k2", "k3", "k4", "r1", "vr1", "ar1", "r2", "vr2", "ar2", *_MOTION),
     "rppk": (
-        "n1", "n2", "n3", "n4", "k1", "k2", "k3", "r1", "gam1", "gam2", "r2", "vr2", "ar2", "r3", "vr3", "ar3",
+        "n1",
+        "n2",
+        "n3",
+        "n4",
+        "k1",
+        "k2",
+        "k3",
+        "r1",
+        "gam1",
+        "gam2",
+        "r2",
+        "vr2",
+        "ar2",
+        "r3",
+        "vr3",
+        "ar3",
         *_MOTION,
     ),
     "barf": ("n1", "ns1", "nn1", "k1", "p", "ap", "e", "fr", "tb"),
     "rrrf": ("n1", "n2", "n3", "ns1", "ns2", "nn1", "nn2", "nexf", "k1", "k2", *_FORCES),
     "rrpf": ("n1", "n2", "n3", "ns1", "ns2", "nn1", "nn2", "nexf", "k1", "k2", *_FORCES),
     "rprf": ("n1", "n2", "ns1", "ns2", "nn1", "nn2", "nexf", "k1", "k2", *_FORCES, "fk", "pk"),
-    "prpf": (
-        "n1", "n2", "n3", "ns1", "ns2", "nn1", "nn2", "nexf", "k1", "k2", "k3", "k4", *_FORCES, "fk", "pk",
-    ),
-    "rppf": (
-        "n1", "n2", "n3", "n4", "ns1", "ns2", "nn1", "nn2", "nexf", "k1", "k2", "k3", *_FORCES, "fk", "pk",
-    ),
-}  # fmt: skip
+    "prpf": ("n1", "n2", "n3", "ns1", "ns2", "nn1", "nn2", "nexf", "k1", "k2", "k3", "k4", *_FORCES, "fk", "pk"),
+    "rppf": ("n1", "n2", "n3", "n4", "ns1", "ns2", "nn1", "nn2", "nexf", "k1", "k2", "k3", *_FORCES, "fk", "pk"),
+}
 
 
 @dataclass(frozen=True)
@@ -182,9 +193,7 @@ class _Caller:
         key = f"{guide.joint}:{link}"
         if key in self.at:
             return self.at[key]
-        name = (
-            _("off guide {guide}", guide=guide.joint) if offset else _("on guide {guide}", guide=guide.joint)
-        )
+        name = _("off guide {guide}", guide=guide.joint) if offset else _("on guide {guide}", guide=guide.joint)
         number = self._numbered(key, name, (link,), place if link == "frame" else None)
         if link != "frame":
             self._bark(link, [(number, axes.along(place))])
@@ -222,12 +231,7 @@ class _Caller:
             self._further(link, self._base(step, i))
 
     def _add(
-        self,
-        into: list[Call],
-        name: str,
-        step: Step | None,
-        links: tuple[str, ...],
-        arguments: dict[str, str],
+        self, into: list[Call], name: str, step: Step | None, links: tuple[str, ...], arguments: dict[str, str]
     ) -> None:
         actual = tuple(arguments.get(formal, formal) for formal in FORMAL[name])
         into.append(Call(name, step, links, actual))
@@ -240,9 +244,7 @@ class _Caller:
         n1, n2 = (self._point(link, outer.joint) for link, outer in zip(step.links, step.outer, strict=True))
         n3 = self._point(step.links[0], step.inner)
         r1, r2 = step.lengths
-        return self._bound(
-            step, n1=n1, n2=n2, n3=n3, r1=length(r1), r2=length(r2), m=_sign(step.mode == "left")
-        )
+        return self._bound(step, n1=n1, n2=n2, n3=n3, r1=length(r1), r2=length(r2), m=_sign(step.mode == "left"))
 
     def _rrp(self, step: Step) -> dict[str, str]:
         n1, guide = self._point(step.links[0], step.outer[0].joint), step.guides[0]
@@ -260,8 +262,7 @@ class _Caller:
                 self.axes[link] = replace(self.axes[link], lean=self.axes[link].lean + math.pi)
             self.found.notes.append(
                 _(
-                    "t(k) of {links} points against the file's guide, since the subprogram counts the "
-                    "slide positive",
+                    "t(k) of {links} points against the file's guide, since the subprogram counts the slide positive",
                     links=", ".join(step.links),
                 )
             )
@@ -291,10 +292,17 @@ class _Caller:
         self.axes[block] = replace(self.axes[block], lean=self.axes[block].lean + step.angle)
         self.axes[arm] = replace(self.axes[arm], lean=self.axes[arm].lean + turn - math.pi)
         return {
-            "n1": str(n1), "n2": str(n2), "n3": str(n3), "n4": str(n4), "k1": str(self.numbers[arm]),
-            "k2": str(self.numbers[block]), "k3": str(k3), "r1": length(abs(across)), "gam1": angle(turn),
+            "n1": str(n1),
+            "n2": str(n2),
+            "n3": str(n3),
+            "n4": str(n4),
+            "k1": str(self.numbers[arm]),
+            "k2": str(self.numbers[block]),
+            "k3": str(k3),
+            "r1": length(abs(across)),
+            "gam1": angle(turn),
             "gam2": angle(step.angle),
-        }  # fmt: skip
+        }
 
     def _bound(self, step: Step, **values: object) -> dict[str, str]:
         links = {f"k{i}": str(self.numbers[link]) for i, link in enumerate(step.links, 1)}
@@ -340,9 +348,7 @@ class _Caller:
             place = complex(*centre(part, part.points, self.mechanism.dimension))
             named = self._named(link, place)
             if named is None:
-                self.centres[link] = self._numbered(
-                    f"{link}:centre", _("mass centre of {link}", link=link), (link,)
-                )
+                self.centres[link] = self._numbered(f"{link}:centre", _("mass centre of {link}", link=link), (link,))
             else:
                 self.centres[link] = self._point(link, named)
             wanted.append((self.centres[link], axes.along(place)))
@@ -360,9 +366,7 @@ class _Caller:
             texts = {name: str(value) for name, value in values.items()}
             texts["r1"] = length(one[1].real) if one else "0"
             texts |= (
-                {"r2": length(abs(two[1])), "gam": angle(cmath.phase(two[1]))}
-                if two
-                else {"r2": "0", "gam": "0"}
+                {"r2": length(abs(two[1])), "gam": angle(cmath.phase(two[1]))} if two else {"r2": "0", "gam": "0"}
             )
             self._add(self.found.motion, "bark", None, (link,), texts)
 
@@ -400,9 +404,7 @@ class _Caller:
         self._add(self.found.forces, f"{step.kind.lower()}f", step, step.links, values)
         for i, outer in enumerate(step.outer):
             if outer.link != "frame":
-                place = (
-                    self._point(outer.link, outer.joint) if isinstance(outer, Pin) else self._base(step, i)
-                )
+                place = self._point(outer.link, outer.joint) if isinstance(outer, Pin) else self._base(step, i)
                 self.loaded.setdefault(outer.link, []).append(place)
 
     def _places(self, step: Step) -> dict[str, int]:

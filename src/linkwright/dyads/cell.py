@@ -44,11 +44,7 @@ _GROUPS: dict[str, tuple[tuple[str, ...], dict[str, str], str]] = {
         "{slide: outer_1, speed: 1 m/s}",
     ),
     "RRR": ((_BAR.format("P"), _BAR.format("Q")), {}, ""),
-    "RRP": (
-        (_BAR.format("P"), _ONE.format("B")),
-        {"outer_2": _GUIDE.format("base_2", "Q", 0, "second", "B")},
-        "",
-    ),
+    "RRP": ((_BAR.format("P"), _ONE.format("B")), {"outer_2": _GUIDE.format("base_2", "Q", 0, "second", "B")}, ""),
     "RPR": (
         (_ONE.format("P"), "{Q: [0 m, 0 m], B: [0 m, -1 m]}"),
         {"inner": _GUIDE.format("first", "P", 0, "second", "B")},
@@ -87,12 +83,8 @@ def _text(name: str) -> str:
     """The model file of the mechanism that a group is cut out of."""
     points, guides, driver = _GROUPS[name]
     links = {f"base_{n}": _BASE.format(point=p, number=n) for n, p in enumerate("PQ"[: len(points)], 1)}
-    links |= {
-        link: _LINK.format(points=each) for link, each in zip(("first", "second"), points, strict=False)
-    }
-    drivers = {
-        f"drive_{n}": f"{{turn: base_{n}, about: F{n}, speed: 1 rad/s}}" for n in range(1, len(points) + 1)
-    }
+    links |= {link: _LINK.format(points=each) for link, each in zip(("first", "second"), points, strict=False)}
+    drivers = {f"drive_{n}": f"{{turn: base_{n}, about: F{n}, speed: 1 rad/s}}" for n in range(1, len(points) + 1)}
     drivers |= {"drive": driver} if driver else {}
     sections = {"links": links, "joints": guides, "drivers": drivers}
     lines = ["format: 1", f"name: {name}", "frame: {points: {F1: [0 m, 0 m], F2: [1 m, 0 m]}}"]
@@ -209,14 +201,8 @@ class Cell:
         for name, joint in JOINTS[self.name].items():
             on = "second" if name == "outer_2" else "first"
             force = forces.reaction(joint, on)
-            found |= {
-                f"{name}.fx": force.x,
-                f"{name}.fy": force.y,
-                f"{name}.couple": forces.couple(joint, on),
-            }
-        return found | {
-            "effort" if len(forces.efforts) == 1 else name: each for name, each in forces.efforts.items()
-        }
+            found |= {f"{name}.fx": force.x, f"{name}.fy": force.y, f"{name}.couple": forces.couple(joint, on)}
+        return found | {"effort" if len(forces.efforts) == 1 else name: each for name, each in forces.efforts.items()}
 
 
 def _base(trace: Trace, base: str, guiding: bool) -> State:
@@ -226,9 +212,7 @@ def _base(trace: Trace, base: str, guiding: bool) -> State:
     )
     if not guiding:
         return State(Pose(ZERO, place, UNTURNED), velocity, 0.0, acceleration, 0.0)
-    cosine, sine, omega, alpha = (
-        trace.position(f"{base}.{name}") for name in ("cos", "sin", "omega", "alpha")
-    )
+    cosine, sine, omega, alpha = (trace.position(f"{base}.{name}") for name in ("cos", "sin", "omega", "alpha"))
     rotor = Rotor(Vec(cosine, sine), Vec(1.0, 0.0))
     return State(Pose(ZERO, place, rotor), velocity, omega, acceleration, alpha)
 

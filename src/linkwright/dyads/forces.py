@@ -201,10 +201,6 @@ def _body(link: str, body: Body | None, line: Line) -> dict[str, Floats]:
             moment = moment + arm[..., 0] * own[..., 1] - arm[..., 1] * own[..., 0]
         elif own.any():
             raise RequestError(
-                _(
-                    "a load of the {name} link has a force but no point; give `at=`",
-                    code="dyads.no_place",
-                    name=link,
-                )
+                _("a load of the {name} link has a force but no point; give `at=`", code="dyads.no_place", name=link)
             )
     return inputs | {f"{link}.fx": force[..., 0], f"{link}.fy": force[..., 1], f"{link}.moment": moment}

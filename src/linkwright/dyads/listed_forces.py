@@ -57,9 +57,7 @@ class ForceLines:
             return
         say, write = self.listing.say, self.listing.write
         if not self.possible:
-            sentence = _(
-                "joint forces: not all groups have a function for them; lw.solve_forces(mechanism) has them"
-            )
+            sentence = _("joint forces: not all groups have a function for them; lw.solve_forces(mechanism) has them")
             write("", f"# {say(sentence)}")
             return
         write("", "# " + say(_("joint forces, from the last group to the first")))
@@ -134,9 +132,7 @@ class ForceLines:
             self._couple(joint, link, couple, f"{name}.origin", total, self.listing.plan.axes[link].origin)
         if known == "frame":
             return
-        held = (
-            f"{found}.effort" if step.kind in ("bar", "weld") else couple if isinstance(outer, Guide) else ""
-        )
+        held = f"{found}.effort" if step.kind in ("bar", "weld") else couple if isinstance(outer, Guide) else ""
         more = f", -{held}" if held else ""
         self.on.setdefault(known, []).append(f"Load(-{total}, {place}{more})")
 
@@ -153,9 +149,7 @@ class ForceLines:
         if link != "frame":
             self.reactions.setdefault((joint, link), []).append(force)
 
-    def _couple(
-        self, joint: str, link: str, couple: str, about: str, force: str, origin: complex | None
-    ) -> None:
+    def _couple(self, joint: str, link: str, couple: str, about: str, force: str, origin: complex | None) -> None:
         """A couple about the block's point, as results give it, from that about another point."""
         guide = self.mechanism.guides[joint]
         place = self.listing.plan.local(guide.block, guide.at)
@@ -255,9 +249,7 @@ class ForceLines:
         for part, text in parts.items():
             write(f'    table[f"{Output("reaction", "{joint_of}", part, "{on}").heading}"] = {text}')
         heading = Output("reaction_direction", "{joint_of}", on="{on}").heading
-        write(
-            "    angle = np.where(size > 1e-12 * largest, np.arctan2(force[..., 1], force[..., 0]), np.nan)"
-        )
+        write("    angle = np.where(size > 1e-12 * largest, np.arctan2(force[..., 1], force[..., 0]), np.nan)")
         write(f'    table[f"{heading}"] = angle')
         for (joint, link), text in self.couples.items():
             if link == "frame":

@@ -49,11 +49,7 @@ def series(values: Floats, *, degrees: bool = False) -> str:
     if not len(array):
         return "np.zeros(0)"
     if np.ptp(array) <= EVEN * max(np.abs(array).max(), ZERO):
-        return (
-            number(float(array[0]))
-            if len(array) > 1 and not degrees
-            else f"np.array([{number(float(array[0]))}])"
-        )
+        return number(float(array[0])) if len(array) > 1 and not degrees else f"np.array([{number(float(array[0]))}])"
     shown = np.degrees(array) if degrees else array
     text = _even(shown, degrees)
     if text is not None:

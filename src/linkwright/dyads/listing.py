@@ -48,7 +48,7 @@ class Listing(Script):
         """Title and imports; what the lines below do not use is not imported."""
         name = " ".join(self.mechanism.name.split())
         units = _(
-            "Units: m, kg, s, N, rad; counter-clockwise positive. Points of links: along their line, left of it.",
+            "Units: m, kg, s, N, rad; counter-clockwise positive. Points of links: along their line, left of it."
         )
         yield "# " + self.say(_("{name}: solved group by group with linkwright.dyads", name=name))
         yield f"# {self.say(units)}"
@@ -80,9 +80,7 @@ class Listing(Script):
             self.write(f"G = {pair(complex(*self.mechanism.gravity))}")
 
     def _touches(self, step: Step, point: str) -> bool:
-        return any(
-            isinstance(each, Pin) and each.link == "frame" and each.joint == point for each in step.outer
-        )
+        return any(isinstance(each, Pin) and each.link == "frame" and each.joint == point for each in step.outer)
 
     def _coordinates(self, driver: str) -> tuple[Floats, Floats, Floats]:
         return tuple(row[self.rows] for row in self.motion.positions.coordinates[driver])  # type: ignore[return-value]
@@ -93,9 +91,9 @@ class Listing(Script):
         reason = in_language(step.reason, self.language)
         title = self.say(form.format(links=links, signature=step.group.signature, reason=reason))
         self.write("", f"# {step.number}  {title}")
-        {"bar": self._bar, "slider": self._slider, "weld": self._weld, "": self._other}.get(
-            step.kind, self._dyad
-        )(step)
+        {"bar": self._bar, "slider": self._slider, "weld": self._weld, "": self._other}.get(step.kind, self._dyad)(
+            step
+        )
         for link in step.group.links:
             self._points(link)
 
@@ -108,10 +106,7 @@ class Listing(Script):
             added = f"- {turn[1:]}" if turn.startswith("-") else f"+ {turn}"
             lean = f" - {angle(axes.lean)}" if abs(axes.lean) > ZERO else ""
             turn = f"{carrier}.angle{lean} {added}"
-            rates = [
-                f"{carrier}.angular_velocity + {rates[0]}",
-                f"{carrier}.angular_acceleration + {rates[1]}",
-            ]
+            rates = [f"{carrier}.angular_velocity + {rates[0]}", f"{carrier}.angular_acceleration + {rates[1]}"]
         elif rates[1] == "0":
             rates = rates[:1]
         self.write(*call(self.names.of("link", step.links[0]), "bar", [self.outer(pin), turn, *rates]))
@@ -221,9 +216,7 @@ class Listing(Script):
             for link in self.mechanism.links
             if link in self.plan.axes
         ]
-        heads = [
-            Output(kind, "{label}").heading for kind in ("angle", "angular_velocity", "angular_acceleration")
-        ]
+        heads = [Output(kind, "{label}").heading for kind in ("angle", "angular_velocity", "angular_acceleration")]
         self.write(
             *wrapped("for label, axis, lean in", links, ":"),
             f'    table[f"{heads[0]}"] = np.angle(np.exp(1j * (axis.angle - lean)))',

@@ -111,7 +111,7 @@ def slider(
 
 def rrr(
     first: Any, second: Any, lengths: tuple[ArrayLike, ArrayLike], mode: str = "left", *, unreachable: str = "refuse"
-) -> DyadMotion:  # fmt: skip
+) -> DyadMotion:
     """The RRR dyad (rrrk): two links between two known pins.
 
     Args:
@@ -130,9 +130,14 @@ def rrr(
 
 
 def rrp(
-    pin: Any, guide: Line, length: ArrayLike, offset: ArrayLike = 0.0, mode: str = "forward",
-    *, unreachable: str = "refuse",
-) -> DyadMotion:  # fmt: skip
+    pin: Any,
+    guide: Line,
+    length: ArrayLike,
+    offset: ArrayLike = 0.0,
+    mode: str = "forward",
+    *,
+    unreachable: str = "refuse",
+) -> DyadMotion:
     """The RRP dyad (rrpk): a link on a known pin, and a block on a known guide, which may move.
 
     Args:
@@ -147,18 +152,19 @@ def rrp(
     Raises:
         PositionError, RequestError: as for :func:`rrr`.
     """
-    sizes = {
-        "first.B.x": _length("length", numbers("length", length)),
-        "outer_2.offset": numbers("offset", offset),
-    }
+    sizes = {"first.B.x": _length("length", numbers("length", length)), "outer_2.offset": numbers("offset", offset)}
     inputs = _pin("base_1", "pin", pin) | _guide("base_2", "guide", guide)
     return _solved("RRP", inputs | sizes, mode, unreachable)
 
 
 def rpr(
-    first: Any, second: Any, offsets: tuple[ArrayLike, ArrayLike] = (0.0, 0.0), mode: str = "forward",
-    *, unreachable: str = "refuse",
-) -> DyadMotion:  # fmt: skip
+    first: Any,
+    second: Any,
+    offsets: tuple[ArrayLike, ArrayLike] = (0.0, 0.0),
+    mode: str = "forward",
+    *,
+    unreachable: str = "refuse",
+) -> DyadMotion:
     """The RPR dyad (rprk): a guide on a link about the first pin, and a block on a link about the second.
 
     Args:
@@ -179,7 +185,7 @@ def rpr(
 
 def prp(
     first: Line, second: Line, offsets: tuple[ArrayLike, ArrayLike] = (0.0, 0.0), *, unreachable: str = "refuse"
-) -> DyadMotion:  # fmt: skip
+) -> DyadMotion:
     """The PRP dyad (prpk): two blocks on known guides, and a pin between them. It has one assembly mode.
 
     Args:
@@ -197,9 +203,13 @@ def prp(
 
 
 def rpp(
-    pin: Any, guide: Line, angle: ArrayLike, offsets: tuple[ArrayLike, ArrayLike] = (0.0, 0.0),
-    *, unreachable: str = "refuse",
-) -> DyadMotion:  # fmt: skip
+    pin: Any,
+    guide: Line,
+    angle: ArrayLike,
+    offsets: tuple[ArrayLike, ArrayLike] = (0.0, 0.0),
+    *,
+    unreachable: str = "refuse",
+) -> DyadMotion:
     """The RPP dyad (rppk): a block on a known guide carries a second guide, on which a link on a known pin slides.
 
     The first link is the block, the second the link on the pin. It has one assembly mode.
@@ -303,9 +313,7 @@ def _solved(signature: str, inputs: dict[str, Floats], mode: str, unreachable: s
             raise _refused(own, found, ok)
         found = {name: np.where(ok, each, np.nan) for name, each in found.items()}
     first, second = _line(found, "first"), _line(found, "second")
-    slides = tuple(
-        Slide(*(found[f"{joint}.{rate}"] for rate in ("s", "vs", "as"))) for joint in own.mechanism.guides
-    )
+    slides = tuple(Slide(*(found[f"{joint}.{rate}"] for rate in ("s", "vs", "as"))) for joint in own.mechanism.guides)
     inner = _inner(signature, first, second, inputs)
     return DyadMotion(signature, first, second, inner, slides, ok, inputs)
 
@@ -334,9 +342,7 @@ def _refused(own: Cell, found: Mapping[str, Floats], ok: Flags) -> PositionError
     """What is the matter in the first position that fails, and how many do."""
     failed = np.flatnonzero(~ok.reshape(-1))
     at = int(failed[0])
-    facts = {
-        name.removeprefix("why:"): float(row.reshape(-1)[at]) for name, row in found.items() if ":" in name
-    }
+    facts = {name.removeprefix("why:"): float(row.reshape(-1)[at]) for name, row in found.items() if ":" in name}
     numbers_known = np.isfinite(list(facts.values())).all()
     reached = bool(found["reached"].reshape(-1)[at]) and own.dyad.words[0] != ""
     if not numbers_known:
@@ -350,16 +356,13 @@ def _refused(own: Cell, found: Mapping[str, Floats], ok: Flags) -> PositionError
         reason = own.dyad.explain(facts)
     message = (
         _(
-            "the {signature} dyad cannot be assembled in position {index} ({count} of {of} "
-            "positions): {reason}",
+            "the {signature} dyad cannot be assembled in position {index} ({count} of {of} positions): {reason}",
             code="dyads.apart",
         )
         if ok.ndim
         else _("the {signature} dyad cannot be assembled: {reason}", code="dyads.apart_alone")
     )
     index = at if ok.ndim < 2 else tuple(int(i) for i in np.unravel_index(at, ok.shape))
-    sentence = message.format(
-        signature=own.name, index=str(index), reason=reason, count=len(failed), of=ok.size
-    )
+    sentence = message.format(signature=own.name, index=str(index), reason=reason, count=len(failed), of=ok.size)
     outcome = Outcome(False, sentence, own.name, "singular" if reached else "apart")
     return PositionError(sentence, tuple(int(i) for i in failed), outcome)

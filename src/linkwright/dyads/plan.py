@@ -153,9 +153,7 @@ class _Planner:
         if shape is None or len(group.links) != 2 or group.drivers:
             return Step(number, group, "", group.links, reason=_why(group))
         dyad, ends = shape
-        found: Step = getattr(self, f"_{dyad.signature.lower()}")(
-            Step(number, group, dyad.signature, ()), ends
-        )
+        found: Step = getattr(self, f"_{dyad.signature.lower()}")(Step(number, group, dyad.signature, ()), ends)
         return self._with_mode(found)
 
     # driven links -----------------------------------------------------------------------------
@@ -239,9 +237,7 @@ class _Planner:
         inner = self.mechanism.guides[inward.joint]
         carries = inner.guide == first
         place = self.plan.local(first, inner.through if carries else inner.at)
-        heading, lean_2 = (
-            (inner.direction, inner.block_angle) if carries else (inner.block_angle, inner.direction)
-        )
+        heading, lean_2 = (inner.direction, inner.block_angle) if carries else (inner.block_angle, inner.direction)
         found, offset, slid, lean = self._on_guide(self.mechanism.guides[outward.joint], first, place)
         cut = step.group.cuts[0]
         pin = self._pin(cut.joint, cut.other(second))
@@ -252,9 +248,14 @@ class _Planner:
         sign = 1.0 if carries else -1.0
         slides = (slid, Slid(inner.name, sign, -sign * away.real))
         return replace(
-            step, links=(first, second), outer=(found, pin), inner=inner.name, offsets=(offset, across),
-            angle=heading - lean, slides=slides,
-        )  # fmt: skip
+            step,
+            links=(first, second),
+            outer=(found, pin),
+            inner=inner.name,
+            offsets=(offset, across),
+            angle=heading - lean,
+            slides=slides,
+        )
 
     # what they share --------------------------------------------------------------------------
     @staticmethod
@@ -312,8 +313,7 @@ class _Planner:
             own = line_of(self.motion, link, self.plan.axes[link].origin, self.rows)
             gap = np.abs(np.subtract(own.point(0.0).position, line.point(0.0).position)).max(initial=0.0)
             turn = np.abs(
-                np.exp(1j * (np.asarray(own.angle) + self.plan.axes[link].lean))
-                - np.exp(1j * np.asarray(line.angle))
+                np.exp(1j * (np.asarray(own.angle) + self.plan.axes[link].lean)) - np.exp(1j * np.asarray(line.angle))
             )
             if not (gap <= AGREEING * self.mechanism.size and turn.max(initial=0.0) <= AGREEING):
                 return False

@@ -15,10 +15,38 @@ from linkwright.words import Translate
 
 #: Names that the program uses itself.
 TAKEN = (
-    "np", "lw", "dyads", "Body", "Line", "Load", "G", "cross", "table", "motion", "library", "turning", "reactions",
-    "label", "axis", "lean", "moved", "sign", "shift", "place", "part", "i", "joint_of", "on", "force", "row",
-    "value", "print", "zip", "map", "enumerate",
-)  # fmt: skip
+    "np",
+    "lw",
+    "dyads",
+    "Body",
+    "Line",
+    "Load",
+    "G",
+    "cross",
+    "table",
+    "motion",
+    "library",
+    "turning",
+    "reactions",
+    "label",
+    "axis",
+    "lean",
+    "moved",
+    "sign",
+    "shift",
+    "place",
+    "part",
+    "i",
+    "joint_of",
+    "on",
+    "force",
+    "row",
+    "value",
+    "print",
+    "zip",
+    "map",
+    "enumerate",
+)
 
 
 class Names:
@@ -50,9 +78,15 @@ class Script:
     """The lines of a program that solves ``rows`` of a motion, and what its parts share."""
 
     def __init__(
-        self, motion: Motion, forces: Forces | None, say: Translate, *, rows: Sequence[int] | None = None,
-        source: str = "", language: str = "en",
-    ) -> None:  # fmt: skip
+        self,
+        motion: Motion,
+        forces: Forces | None,
+        say: Translate,
+        *,
+        rows: Sequence[int] | None = None,
+        source: str = "",
+        language: str = "en",
+    ) -> None:
         chosen = range(motion.steps) if rows is None else rows
         self.motion, self.forces, self.say, self.language = motion, forces, say, language
         self.source = source

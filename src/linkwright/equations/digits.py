@@ -70,11 +70,7 @@ def error_of(term: Term) -> float:
             product = math.prod(values)
             return sum(e * _share(product, values, i) for i, e in enumerate(errors))
         case "quotient":
-            return (
-                (errors[0] + abs(values[0] / values[1]) * errors[1]) / abs(values[1])
-                if values[1]
-                else math.inf
-            )
+            return (errors[0] + abs(values[0] / values[1]) * errors[1]) / abs(values[1]) if values[1] else math.inf
         case "square":
             return 2.0 * abs(values[0]) * errors[0]
         case "root":

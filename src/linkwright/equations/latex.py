@@ -4,18 +4,7 @@ from __future__ import annotations
 
 import re
 
-from linkwright.equations.notation import (
-    Accent,
-    Atom,
-    Bracket,
-    Fraction,
-    Limits,
-    Matrix,
-    Node,
-    Root,
-    Row,
-    Script,
-)
+from linkwright.equations.notation import Accent, Atom, Bracket, Fraction, Limits, Matrix, Node, Root, Row, Script
 from linkwright.equations.signs import FUNCTIONS, SYMBOLS
 
 #: Commands by the signs that they stand for, the usual one of several.
@@ -39,9 +28,7 @@ def latex(node: Node) -> str:
             return rf"\sqrt{f'[{latex(degree)}]' if degree else ''}{{{latex(inside)}}}"
         case Script(base, below, above) | Limits(base, below, above):
             nucleus = f"{{{latex(base)}}}" if isinstance(base, Row) else latex(base)
-            low, high = (
-                f"{mark}{{{latex(part)}}}" if part else "" for mark, part in (("_", below), ("^", above))
-            )
+            low, high = (f"{mark}{{{latex(part)}}}" if part else "" for mark, part in (("_", below), ("^", above)))
             return nucleus + low + high
         case Accent(mark, inside):
             return rf"\{mark}{{{latex(inside)}}}"
@@ -59,9 +46,7 @@ def _row(items: tuple[Node, ...]) -> str:
         spaced = isinstance(item, Atom) and item.kind == "sign" and item.text in _SPACED
         text = f" {latex(item)} " if spaced and found and not found.endswith(" ") else latex(item)
         command = re.search(r"\\[A-Za-z]+$", found)
-        found += (
-            f" {text}" if command and (text[0].isalnum() or command[0][1:] in (*FUNCTIONS, "cdot")) else text
-        )
+        found += f" {text}" if command and (text[0].isalnum() or command[0][1:] in (*FUNCTIONS, "cdot")) else text
     return found.strip()
 
 

@@ -32,10 +32,7 @@ class Entries:
         if not isinstance(matrix, np.ndarray):
             return cls(tuple((str(each),) for each in matrix))
         negligible = ROUNDING * (float(np.abs(matrix).max()) if matrix.size else 0.0)
-        texts = (
-            ("0" if abs(c) <= negligible else f"{c:.6g}" for c in row)
-            for row in np.atleast_2d(matrix).tolist()
-        )
+        texts = (("0" if abs(c) <= negligible else f"{c:.6g}" for c in row) for row in np.atleast_2d(matrix).tolist())
         return cls(tuple(map(tuple, texts)))
 
     @property
@@ -46,9 +43,7 @@ class Entries:
             return [f"[{inside[0]}]"]
         brackets = ["⎡⎤", *["⎢⎥"] * (len(inside) - 2), "⎣⎦"]
         width = max(map(cells, inside))
-        return [
-            f"{mark[0]} {padded(line, width)} {mark[1]}" for mark, line in zip(brackets, inside, strict=True)
-        ]
+        return [f"{mark[0]} {padded(line, width)} {mark[1]}" for mark, line in zip(brackets, inside, strict=True)]
 
     @property
     def printed(self) -> Matrix:

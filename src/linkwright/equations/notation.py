@@ -149,9 +149,7 @@ LETTER = r"[^\W\d_⁰¹²³⁴⁵⁶⁷⁸⁹ⁿᵀᵗᵏᵈ₀₁₂₃₄₅�
 RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻ⁿᵀᵗᵏᵈ", "0123456789−nTtkd", strict=True))
 _LOWERED = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 _ACCENTS = {"\u0304": "bar", "\u0305": "bar", "\u0307": "dot", "\u0308": "ddot", "\u20d7": "vec"}
-_HEAD = re.compile(
-    rf"((?:{LETTER}|[\u0300-\u030f\u20d7])+)([^'′″{''.join(RAISED)}]*)(['′″{''.join(RAISED)}]*)"
-)
+_HEAD = re.compile(rf"((?:{LETTER}|[\u0300-\u030f\u20d7])+)([^'′″{''.join(RAISED)}]*)(['′″{''.join(RAISED)}]*)")
 #: What an index names: points side by side, a number, one letter; with a component behind it.
 _POINTS = re.compile(r"((?:[A-Z]\d*['*]?)+|\d+|\w)([xy]?)", re.ASCII)
 _POINT = re.compile(r"[A-Z]\d*['*]?|\d+|.", re.ASCII)
@@ -161,10 +159,32 @@ WIDE = re.compile(r"[\u2e80-\u9fff\uf900-\ufaff]")
 #: Greek letters by their names, as expressions of files have them.
 _GREEK = dict(
     zip(
-        ("alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "kappa", "lambda", "mu", "nu", "xi",
-         "rho", "sigma", "tau", "phi", "psi", "omega", "pi"), "αβγδεζηθκλμνξρστφψωπ", strict=True,
+        (
+            "alpha",
+            "beta",
+            "gamma",
+            "delta",
+            "epsilon",
+            "zeta",
+            "eta",
+            "theta",
+            "kappa",
+            "lambda",
+            "mu",
+            "nu",
+            "xi",
+            "rho",
+            "sigma",
+            "tau",
+            "phi",
+            "psi",
+            "omega",
+            "pi",
+        ),
+        "αβγδεζηθκλμνξρστφψωπ",
+        strict=True,
     )
-)  # fmt: skip
+)
 
 
 def name(text: str) -> Node:

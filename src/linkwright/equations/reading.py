@@ -268,7 +268,5 @@ class _Reader:
 def _bare(nodes: Sequence[Node]) -> Sequence[Node]:
     """A factor without the brackets around all of it."""
     return (
-        nodes[0].inside.items
-        if len(nodes) == 1 and isinstance(nodes[0], Bracket) and nodes[0].left == "("
-        else nodes
+        nodes[0].inside.items if len(nodes) == 1 and isinstance(nodes[0], Bracket) and nodes[0].left == "(" else nodes
     )

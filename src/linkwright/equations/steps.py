@@ -206,9 +206,16 @@ class Step:
             self.items.append(Written(f"{unmarked(each.strip())} {unit}".rstrip(), (*first, last)))
 
     def put(
-        self, symbol: str, formula: str, value: float, dimension: str = "", *,
-        of: Mapping[str, Value] | None = None, numbers: str = "", digits: int = 6,
-    ) -> None:  # fmt: skip
+        self,
+        symbol: str,
+        formula: str,
+        value: float,
+        dimension: str = "",
+        *,
+        of: Mapping[str, Value] | None = None,
+        numbers: str = "",
+        digits: int = 6,
+    ) -> None:
         """Adds a result: symbol, formula on a line, the formula with its numbers, and the value (SI) as it is shown.
 
         Numbers are put in for a formula's names where all of them, or some ``of`` here, are known, from here or from
@@ -228,10 +235,7 @@ class Step:
         """The values of the names of a formula."""
         values = {key: each if isinstance(each := self.known[key], tuple) else (each, "") for key in used}
         bare = all(kind == dimension for _, kind in values.values()) and dimension != "angle"
-        return {
-            key: (number if bare else quantity_text)(each, kind, digits)
-            for key, (each, kind) in values.items()
-        }
+        return {key: (number if bare else quantity_text)(each, kind, digits) for key, (each, kind) in values.items()}
 
     def relate(self, left: Term, right: Term) -> None:
         """Adds an equation that is solved further below."""

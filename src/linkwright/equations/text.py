@@ -106,6 +106,4 @@ class Solution:
         return {"title": self.title, "steps": [step.data() for step in self.steps]}
 
     def __repr__(self) -> str:
-        return (
-            f"{type(self).__name__}({self.title!r}: {len(self.steps)} steps, {len(self.equations)} equations)"
-        )
+        return f"{type(self).__name__}({self.title!r}: {len(self.steps)} steps, {len(self.equations)} equations)"

@@ -201,15 +201,10 @@ class _Search:
         value = values.ravel()[places]
         here, there, lap = self._changed(places, value)
         a, b = value[here], value[there]
-        (sig, at, first), (_, to, last) = (
-            np.unravel_index(places[each], values.shape) for each in (here, there)
-        )
-        first, last = (
-            np.where(near[sig, each], look, len(LOOKS) // 2) for each, look in ((at, first), (to, last))
-        )
+        (sig, at, first), (_, to, last) = (np.unravel_index(places[each], values.shape) for each in (here, there))
+        first, last = (np.where(near[sig, each], look, len(LOOKS) // 2) for each, look in ((at, first), (to, last)))
         left, right = (
-            self.low[each] + 0.5 * self.width[each] * (1.0 + LOOKS[look])
-            for each, look in ((at, first), (to, last))
+            self.low[each] + 0.5 * self.width[each] * (1.0 + LOOKS[look]) for each, look in ((at, first), (to, last))
         )
         right = right + lap * curve.period[curve.design[to]]
         edges, guess = self._edges_between(at, to, lap), left + (right - left) * a / (a - b)
@@ -249,8 +244,14 @@ class _Search:
         if np.array_equal(before, after) and not lap.any():
             return np.full((2, len(left)), -1)
         counts = np.bincount(design, minlength=self.stretches.span.count)
-        alone = (before == after) & ((lap == 0.0) | ((counts[design[before]] == 1) & (self.stretches.edge[before] < 0)
-                                                     & bool(self.stretches.span.course.turns)))  # fmt: skip
+        alone = (before == after) & (
+            (lap == 0.0)
+            | (
+                (counts[design[before]] == 1)
+                & (self.stretches.edge[before] < 0)
+                & bool(self.stretches.span.course.turns)
+            )
+        )
         first = np.searchsorted(design, design[before])
         after_it = first + (before + 1 - first) % counts[design[before]]
         return np.where(alone, -1, np.stack([after_it, after]))
@@ -275,9 +276,7 @@ class _Search:
         if not len(piece):
             return _Brackets(signal, piece, low, high, low, above, np.empty((2, 0), dtype=np.intp))
         x = turning_points(self.curve.values(signal, piece), low, high, LOOKS[place + 1])
-        time, left, right = (
-            self.low[piece] + 0.5 * self.width[piece] * (1.0 + each) for each in (x, low, high)
-        )
+        time, left, right = (self.low[piece] + 0.5 * self.width[piece] * (1.0 + each) for each in (x, low, high))
         value = self._at(self.formula, piece, time)[signal, np.arange(len(piece))]
         nothing = ZERO_TOLERANCE * self.curve.size[signal, self.curve.design[piece]]
         passed = np.flatnonzero(((value > 0.0) != above) & (np.abs(value) > nothing))

@@ -112,9 +112,7 @@ class Formula:
         program = numpy_program(self.program)
         return program.run_designs(table, inputs, own, length=count, tables=known.tables)
 
-    def _one_by_one(
-        self, numbers: list[float], nodes: Floats, inputs: Columns, own: Columns, count: int
-    ) -> Floats:
+    def _one_by_one(self, numbers: list[float], nodes: Floats, inputs: Columns, own: Columns, count: int) -> Floats:
         """The outputs at a few places, on plain numbers."""
         found = np.empty((len(nodes), len(self.outputs), count))
         for k, node in enumerate(nodes.tolist()):

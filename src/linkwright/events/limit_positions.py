@@ -19,14 +19,7 @@ from linkwright.errors import RequestError
 from linkwright.events.course import Course
 from linkwright.events.events import events
 from linkwright.events.formula import ROW, Known
-from linkwright.events.solved_again import (
-    SolvedAgain,
-    kink_rows,
-    of_bounded_rate,
-    of_kinks,
-    of_rate,
-    solved_at,
-)
+from linkwright.events.solved_again import SolvedAgain, kink_rows, of_bounded_rate, of_kinks, of_rate, solved_at
 from linkwright.events.stretches import Span, Stretches
 from linkwright.formula.recently_made import Recent
 from linkwright.kinematics.between_positions import Between
@@ -248,9 +241,7 @@ class _Reversals:
         if largest <= CONSTANT * self._fastest():
             return _Found(np.empty(0), np.empty(0, dtype=np.bool_), np.empty((len(self.value_names), 0)))
         way = self.way
-        made = (
-            of_rate if way.complete else of_bounded_rate(float(np.nanmedian(rate[rate > CONSTANT * largest])))
-        )
+        made = of_rate if way.complete else of_bounded_rate(float(np.nanmedian(rate[rate > CONSTANT * largest])))
         rates = SolvedAgain(way.between, way.reach, self.rate_names, made)
         parts = [(each, events(rates, NO_NUMBERS, ONE, each)[0]) for each in way.parts]
         time = np.concatenate([np.empty(0), *(each.time for _unused, each in parts)])
@@ -276,8 +267,7 @@ class _Reversals:
         """The largest rate in the mechanism, in the dimension of the output's."""
         rows, size = self.motion.rows, self.motion.mechanism.size
         turning, moving = (
-            _largest(rows.values[each])
-            for each in _speeds.get(rows.index, None, lambda: _rows_of(rows.index))
+            _largest(rows.values[each]) for each in _speeds.get(rows.index, None, lambda: _rows_of(rows.index))
         )
         speed = max(turning, moving / size)
         return speed if self.output.kind == "angle" else speed * size

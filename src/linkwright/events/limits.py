@@ -63,10 +63,7 @@ class Limits:
         """Designs with one limit of each kind, or one outermost one, (designs,)."""
         design, rising = self.events.design, self.events.rising
         counted = self.is_outermost if outermost else np.ones_like(rising)
-        sides = [
-            np.bincount(design[counted & (rising == kind)], minlength=self.span.count)
-            for kind in (False, True)
-        ]
+        sides = [np.bincount(design[counted & (rising == kind)], minlength=self.span.count) for kind in (False, True)]
         return np.asarray((sides[0] == 1) & (sides[1] == 1))
 
     @cached_property

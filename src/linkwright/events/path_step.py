@@ -47,9 +47,7 @@ class TracedStep:
     ``groups``: names of those that Newton's method solves.
     """
 
-    def __init__(
-        self, motion: MotionTrace, before: Callable[[str], Scalar], h: Scalar, derivatives: int = 3
-    ) -> None:
+    def __init__(self, motion: MotionTrace, before: Callable[[str], Scalar], h: Scalar, derivatives: int = 3) -> None:
         self.motion, self.h = motion, h
         self.coordinates = chain_coordinates(motion)
         self.groups = tuple(name for name, placed in motion.placed.items() if placed.coordinates)
@@ -58,8 +56,7 @@ class TracedStep:
             for each in self.coordinates
         }
         self.near: dict[ChainCoordinate, Scalar] = {
-            each: x + h * (v + h * (0.5 * a + (1.0 / 6.0) * h * j))
-            for each, (x, v, a, j) in self.begin.items()
+            each: x + h * (v + h * (0.5 * a + (1.0 / 6.0) * h * j)) for each, (x, v, a, j) in self.begin.items()
         }
 
     @property
@@ -150,6 +147,4 @@ class PathStep:
             columns |= {f"{each.name}|{order}": before[order, k] for order in range(4)}
         found = self._formula.run(known, columns, _NOW)[0]
         row = self._formula.place
-        return Place(
-            found[self._values], found[row["doubt"]], found[row["residual"]], np.sign(found[self._signs])
-        )
+        return Place(found[self._values], found[row["doubt"]], found[row["residual"]], np.sign(found[self._signs]))

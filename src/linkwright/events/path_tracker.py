@@ -63,9 +63,7 @@ class PathTracker:
         done, share, lanes = np.zeros(count), np.ones(count), np.arange(count)
         while len(lanes):
             ahead = np.minimum(done[lanes] + share[lanes], 1.0)
-            now = {
-                name: first + ahead * (designs[name][lanes] - first) for name, first in self.varied.items()
-            }
+            now = {name: first + ahead * (designs[name][lanes] - first) for name, first in self.varied.items()}
             here, gone = x[:, lanes], ahead - done[lanes]
             near = here + slope[:, lanes] * gone
             there = self.step.place(known, now, begin[lanes], _at_rest(near))
@@ -81,9 +79,7 @@ class PathTracker:
             share[lanes[~sure]] *= 0.5
             lanes = lanes[(done[lanes] < 1.0) & (share[lanes] >= SMALLEST_SHARE)]
         x[:, done < 1.0] = np.nan
-        return np.concatenate(
-            [self.step.place(known, designs, begin, _at_rest(x)).values, np.zeros((1, *x.shape))]
-        )
+        return np.concatenate([self.step.place(known, designs, begin, _at_rest(x)).values, np.zeros((1, *x.shape))])
 
     # the way over the course ---------------------------------------------------------------------------
     def track(self, designs: Columns, begin: Floats, duration: Floats) -> Paths:

@@ -83,9 +83,7 @@ class PositionList:
         """Outputs that are named."""
         return [each.output for each in self.at_limits if each.output]
 
-    def solved(
-        self, mechanism: Mechanism, output: str = "", failures: Literal["raise", "mark"] = "mark"
-    ) -> Motion:
+    def solved(self, mechanism: Mechanism, output: str = "", failures: Literal["raise", "mark"] = "mark") -> Motion:
         """The motion at these positions, each for itself; ``output``: whose ``limits`` are meant.
 
         Raises LinkwrightError for a limit position that is not there, and for an input of a driver that follows a
@@ -101,9 +99,7 @@ class PositionList:
     def inputs(self, mechanism: Mechanism, output: str = "") -> list[float]:
         """The first driver's coordinates; raises as :meth:`solved`."""
         law = next(iter(mechanism.drivers.values())).law
-        return [
-            law.at(value) if timed else value for value, timed in self._values(mechanism, output, "input")
-        ]
+        return [law.at(value) if timed else value for value, timed in self._values(mechanism, output, "input")]
 
     def times(self, mechanism: Mechanism, output: str = "") -> list[float]:
         """The times, s; raises as :meth:`solved`."""
@@ -115,8 +111,7 @@ class PositionList:
             if not timed and not driver.law.constant_speed:
                 raise CycleError(
                     _(
-                        "driver {name!r} follows its own law in time; ask for positions by times instead of "
-                        "inputs",
+                        "driver {name!r} follows its own law in time; ask for positions by times instead of inputs",
                         code="motion.own_law",
                         name=driver.name,
                     )
@@ -188,9 +183,7 @@ def of_text(text: str, dimensions: Sequence[str]) -> PositionList:
     """
     parts = [part.strip() for part in text.split(",")]
     if not all(parts):
-        raise RequestError(
-            _('"{text}" has an empty place between commas', code="solve.empty_value", text=text)
-        )
+        raise RequestError(_('"{text}" has an empty place between commas', code="solve.empty_value", text=text))
     if _COMMA.fullmatch(text.strip()):
         raise units.decimal_comma(text.strip())
     found: list[Entry] = []
@@ -212,9 +205,7 @@ def of_value(value: Any, dimensions: Sequence[str]) -> PositionList:
         return PositionList(tuple(_stepped(value, dimensions)))
     parts = value if isinstance(value, list | tuple) else [value]
     if not parts:
-        raise RequestError(
-            _('"{text}" has an empty place between commas', code="solve.empty_value", text="[]")
-        )
+        raise RequestError(_('"{text}" has an empty place between commas', code="solve.empty_value", text="[]"))
     entries: list[Entry] = []
     for part in parts:
         entries += (
@@ -317,11 +308,7 @@ def _range(text: str, dimensions: Sequence[str]) -> list[Place]:
     first, last = bounds.split("..", 1)
     if not colon or not step_text.strip():
         raise RequestError(
-            _(
-                '"{text}" has no step; write from..to:step, such as 0..90deg:10',
-                code="solve.range_step",
-                text=text,
-            )
+            _('"{text}" has no step; write from..to:step, such as 0..90deg:10', code="solve.range_step", text=text)
         )
     number = _NUMBER.match(last.strip())
     unit = last.strip()[number.end() :] if number else ""

@@ -47,9 +47,7 @@ class OfTimes:
 class SolvedAgain(OfTimes):
     """Signals ``made`` of rows ``names`` of the program of a motion; ``count``: how many."""
 
-    def __init__(
-        self, between: Between, reach: Reach, names: tuple[str, ...], made: Made, count: int = 1
-    ) -> None:
+    def __init__(self, between: Between, reach: Reach, names: tuple[str, ...], made: Made, count: int = 1) -> None:
         super().__init__(lambda time: made(solved_at(between, reach, names, time))[0], count, 0.0)
         self.between, self.reach, self.names, self.made = between, reach, names, made
 

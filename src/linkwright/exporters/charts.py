@@ -154,9 +154,7 @@ class Charts:
             return
         x, y = (self.places["forces", name, axis] for axis in "xy")
         right, up = (f"{self.say(QUANTITIES[axis])} [N]" for axis in "xy")
-        yield Chart(
-            f"{self.say(title_of('hodograph'))}, {name}", right, up, (Curve(name, x, y),), square=True
-        )
+        yield Chart(f"{self.say(title_of('hodograph'))}, {name}", right, up, (Curve(name, x, y),), square=True)
 
 
 def write_charts(sheet: Any, book: Any, rows: Sequence[Sequence[Chart]]) -> None:
@@ -166,9 +164,7 @@ def write_charts(sheet: Any, book: Any, rows: Sequence[Sequence[Chart]]) -> None
         left, tall = GAP, 0
         for chart in row:
             width, height = (SQUARE, SQUARE) if chart.square else (WIDE, TALL)
-            sheet.insert_chart(
-                0, 0, _drawn(book, chart), {"x_offset": left, "y_offset": top, "object_position": 3}
-            )
+            sheet.insert_chart(0, 0, _drawn(book, chart), {"x_offset": left, "y_offset": top, "object_position": 3})
             left, tall = left + width + GAP, max(tall, height)
         top += tall + GAP
 
@@ -183,10 +179,7 @@ def _drawn(book: Any, chart: Chart) -> Any:
         look: dict[str, Any] = {"line": {"color": colour, "width": 1.5, "dash_type": dash}}
         if not along:
             fill = {"color": colour}
-            look = {
-                "line": {"none": True},
-                "marker": {"type": "circle", "size": 5, "fill": fill, "border": fill},
-            }
+            look = {"line": {"none": True}, "marker": {"type": "circle", "size": 5, "fill": fill, "border": fill}}
         drawn.add_series(
             {"name": printable(curve.name), "categories": _cells(curve.x), "values": _cells(curve.y), **look}
         )

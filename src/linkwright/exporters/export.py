@@ -21,9 +21,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import Registry, nearest, offered
 from linkwright.words import Message, _
 
-_ENDING = _(
-    '{path}: no format is written to files with the ending "{suffix}"; {hint}', code="export.no_ending"
-)
+_ENDING = _('{path}: no format is written to files with the ending "{suffix}"; {hint}', code="export.no_ending")
 
 
 @dataclass(frozen=True)

@@ -73,25 +73,31 @@ class Plan:
         if first:
             drawn.fast_forward(first)
         unit = drawn.random(self.part)[:count]
-        return {
-            each.address: each.low + unit[:, i] * (each.high - each.low) for i, each in enumerate(self.ranges)
-        }
+        return {each.address: each.low + unit[:, i] * (each.high - each.low) for i, each in enumerate(self.ranges)}
 
     @property
     def digest(self) -> str:
         """What finished parts must agree with."""
         known = sorted(self.mechanism.dimensions().items()), sorted(self.mechanism.assembly.items())
         values = [(each.address, each.values.tobytes()) for each in self.ranges]
-        identity_data = (known, sorted(map(repr, self.mechanism.loads.items())), values, self.outputs, self.sampling,
-                self.designs, self.seed, self.steps, self.part, VERSION)  # fmt: skip
+        identity_data = (
+            known,
+            sorted(map(repr, self.mechanism.loads.items())),
+            values,
+            self.outputs,
+            self.sampling,
+            self.designs,
+            self.seed,
+            self.steps,
+            self.part,
+            VERSION,
+        )
         return hashlib.blake2b(repr(identity_data).encode(), digest_size=16).hexdigest()
 
 
 def part_content(plan: Plan, number: int, threads: int | None = 1) -> bytes:
     """A part as the bytes of a Parquet file: the same wherever it is made."""
-    found = sweep(
-        plan.mechanism, plan.columns(number), outputs=plan.outputs, steps=plan.steps, threads=threads
-    )
+    found = sweep(plan.mechanism, plan.columns(number), outputs=plan.outputs, steps=plan.steps, threads=threads)
     arrow, parquet = _arrow()
     columns = {name: np.ascontiguousarray(column) for name, column in found.columns().items()}
     stream = io.BytesIO()
@@ -263,10 +269,7 @@ def sweep_parts(
     require(mechanism, Mechanism)
     if not str(folder):
         raise RequestError(
-            _(
-                'the folder has no name; name one, or give "." for the folder you are in',
-                code="study.no_folder",
-            )
+            _('the folder has no name; name one, or give "." for the folder you are in', code="study.no_folder")
         )
     plan = _plan(mechanism, vary, outputs, sampling, samples, seed, steps, part)
     found = SweepParts(Path(folder), plan)
@@ -288,16 +291,18 @@ def sweep_parts(
 
 
 def _plan(
-    mechanism: Mechanism, vary: Mapping[str, str | ArrayLike], outputs: Iterable[str | tuple[str, str]],
-    sampling: Sampling, samples: int, seed: int, steps: int | None, part: int,
-) -> Plan:  # fmt: skip
+    mechanism: Mechanism,
+    vary: Mapping[str, str | ArrayLike],
+    outputs: Iterable[str | tuple[str, str]],
+    sampling: Sampling,
+    samples: int,
+    seed: int,
+    steps: int | None,
+    part: int,
+) -> Plan:
     if sampling not in ("grid", "sobol"):
         raise RequestError(
-            _(
-                "there is no sampling {sampling!r}; use grid or sobol",
-                code="study.no_sampling",
-                sampling=sampling,
-            )
+            _("there is no sampling {sampling!r}; use grid or sobol", code="study.no_sampling", sampling=sampling)
         )
     ranges = varied_ranges(mechanism, vary, sampled=sampling == "sobol")
     count = samples if sampling == "sobol" else int(np.prod([float(len(each.values)) for each in ranges]))
@@ -306,12 +311,7 @@ def _plan(
         raise RequestError(BAD_SEED.format(seed=seed))
     if not 1 <= count <= MOST:
         raise RequestError(
-            _(
-                "{samples} samples are asked for; give 1 to {most}",
-                code="study.bad_samples",
-                samples=count,
-                most=MOST,
-            )
+            _("{samples} samples are asked for; give 1 to {most}", code="study.bad_samples", samples=count, most=MOST)
         )
     names = tuple(each.name for each in wanted(outputs))
     size = 1 << max(0, (min(part, count) - 1).bit_length()) if part > 0 else PART
@@ -323,12 +323,7 @@ def _missing(found: SweepParts) -> list[int]:
     _unused, parquet = _arrow()
     make_folder(found.folder)
     note, digest = found.folder / "sweep.json", found.plan.digest
-    found_data = {
-        "plan": digest,
-        "designs": found.designs,
-        "parts": found.parts,
-        "outputs": found.plan.outputs,
-    }
+    found_data = {"plan": digest, "designs": found.designs, "parts": found.parts, "outputs": found.plan.outputs}
     try:
         atomic_write(note, json.dumps(found_data, indent=1).encode(), force=False)
     except RequestError:

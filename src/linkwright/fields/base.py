@@ -107,11 +107,7 @@ class FileKeys:
 def quantity_schema(dimension: str) -> Schema:
     """JSON Schema of a quantity: a text with a unit, or a bare 0; a number where it is dimensionless."""
     bare: Schema = {"type": "number"} if dimension == "dimensionless" else {"const": 0}
-    return {
-        "anyOf": [{"type": "string"}, bare],
-        "x-dimension": dimension,
-        "examples": [units.example(dimension)],
-    }
+    return {"anyOf": [{"type": "string"}, bare], "x-dimension": dimension, "examples": [units.example(dimension)]}
 
 
 def pair_schema(one: Schema) -> Schema:
@@ -166,9 +162,7 @@ class Quantity(Field):
         if (self.below is not None and value >= self.below) or value > (self.maximum or math.inf):
             return _("too large", code="model.too_large")
         return (
-            _("negative", code="model.negative")
-            if value < 0 and not (self.minimum or self.above)
-            else _("too small")
+            _("negative", code="model.negative") if value < 0 and not (self.minimum or self.above) else _("too small")
         )
 
     def limit(self, value: float) -> Message | None:
@@ -177,16 +171,11 @@ class Quantity(Field):
         within &= (self.below is None or value < self.below) and value <= (self.maximum or math.inf)
         if within and not (self.nonzero and value == 0):
             return None
-        noun, minimum = (
-            units.NOUNS[self.dimension],
-            self.minimum if self.above is None else self.above,
-        )
+        noun, minimum = (units.NOUNS[self.dimension], self.minimum if self.above is None else self.above)
         most = self.below or self.maximum
         if most is not None and self.above is not None:
             message = (
-                _("{noun} above {low} and below {high}")
-                if self.below
-                else _("{noun} above {low}, up to {high}")
+                _("{noun} above {low} and below {high}") if self.below else _("{noun} above {low}, up to {high}")
             )
             return message.format(noun=noun, low=f"{self.above:g}", high=units.format(most, self.dimension))
         if self.maximum is not None:
@@ -195,9 +184,7 @@ class Quantity(Field):
         if self.below is not None:
             unit = "deg" if self.dimension == "angle" else None
             low, high = (units.format(each, self.dimension, unit) for each in (minimum or 0.0, self.below))
-            return _(
-                "{noun} from {low} to below {high}", code="model.from_to_below", noun=noun, low=low, high=high
-            )
+            return _("{noun} from {low} to below {high}", code="model.from_to_below", noun=noun, low=low, high=high)
         if minimum is None:
             return _("{noun} other than zero", code="model.not_zero", noun=noun)
         shown = units.format(minimum, self.dimension) if minimum else pgettext("model", "zero")
@@ -252,9 +239,7 @@ class Quantities(Field):
     above: float | None = field(default=None, kw_only=True)
     form: str = field(default="", kw_only=True)
 
-    def read(
-        self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]
-    ) -> tuple[float, ...] | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> tuple[float, ...] | None:
         items = reader.items(node, place, len(self.names) or self.count, self._form)
         if items is None:
             return None
@@ -395,9 +380,7 @@ class Formula(Field):
 
     dimension: str
 
-    def read(
-        self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]
-    ) -> Expression | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Expression | None:
         return reader.formula(node, place, self.dimension, {"t": units.DIMENSIONS["time"]})
 
     def shape(self) -> Schema:
@@ -429,9 +412,7 @@ class TimeTable(Field):
             "interpolation": Word(("cubic", "periodic", "linear"), doc=_("default cubic")),
         }
 
-    def read(
-        self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]
-    ) -> TimeTableValues | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> TimeTableValues | None:
         with reader.plain_numbers(_("a driver's table")):
             values = reader.table(node, place, self._fields())
         if values is None or values.get("time") is None or values.get("position") is None:
@@ -441,11 +422,7 @@ class TimeTable(Field):
         if not reader.increasing(node, place, "time", times, positions, "position"):
             return None
         drift = positions[-1] - positions[0]
-        turns = (
-            drift / (2 * math.pi)
-            if self.dimension == "angle"
-            else drift / (abs(max(positions, key=abs)) or 1.0)
-        )
+        turns = drift / (2 * math.pi) if self.dimension == "angle" else drift / (abs(max(positions, key=abs)) or 1.0)
         if way == "periodic" and abs(turns - (round(turns) if self.dimension == "angle" else 0)) > 1e-6:
             problem = (
                 _("a periodic table must end where it begins (or full turns further)")

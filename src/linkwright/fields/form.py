@@ -42,11 +42,7 @@ def form(shape: Mapping[str, Any]) -> Message:
             one = {"x-dimension": dimension, "examples": [units.example(dimension)]}
             return _("one of these forms: {several}", several=[form(one), form(listed)])
         case {"x-dimension": dimension, "x-variables": variables}:
-            return _(
-                "{noun}, an expression of {variables}",
-                noun=units.NOUNS[dimension],
-                variables=tuple(variables),
-            )
+            return _("{noun}, an expression of {variables}", noun=units.NOUNS[dimension], variables=tuple(variables))
         case {"x-reference": what}:
             return _NAMES[what]
         case {"anyOf": several}:

@@ -271,9 +271,7 @@ def sliding(joints: Iterable[tuple[str, str, str]], links: Collection[str]) -> d
     return found
 
 
-def resolve_output(
-    text: str, links: Mapping[str, Collection[str]], slides: Mapping[str, str]
-) -> Output | None:
+def resolve_output(text: str, links: Mapping[str, Collection[str]], slides: Mapping[str, str]) -> Output | None:
     """The place over the cycle that a text means, by each link's points and names of displacements; None where
     it means none. ``jaw`` or ``jaw.angle``, ``guide`` or ``guide.displacement``, ``C.x`` or ``C.position.x``."""
     owner, _unused, part = text.rpartition(".")

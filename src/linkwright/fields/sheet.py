@@ -40,12 +40,9 @@ PANEL: Mapping[str, Field] = {
 SHEET: Mapping[str, Field] = {
     "size": Word(SIZES, doc=_("paper size, A0 to A4; default A1")),
     "orientation": Word(("landscape", "portrait"), doc=_("default landscape; A4 portrait")),
-    "standard": Word(
-        STANDARDS, doc=_("gb (GB/T 14689, 10609.1) or iso (ISO 5457, 7200); default by the language")
-    ),
+    "standard": Word(STANDARDS, doc=_("gb (GB/T 14689, 10609.1) or iso (ISO 5457, 7200); default by the language")),
     "block": Word(
-        ("full", "short"),
-        doc=_("title block: full, or the short one of schools; default full, short on A3 and A4"),
+        ("full", "short"), doc=_("title block: full, or the short one of schools; default full, short on A3 and A4")
     ),
     "binding": Flag(doc=_("whether a margin for binding is left (gb); default true")),
     "zones": Flag(doc=_("whether the frame has numbered fields; default false")),
@@ -55,14 +52,10 @@ SHEET: Mapping[str, Field] = {
     "positions": Listed(
         Text(), "[60 deg, 240 deg]", doc=_("inputs of the positions that are worked out, one or two")
     ),
-    "only": Listed(
-        Text(), "[mechanism, velocity_1]", doc=_("panels that are drawn, in their order; default all")
-    ),
+    "only": Listed(Text(), "[mechanism, velocity_1]", doc=_("panels that are drawn, in their order; default all")),
     "leave_out": Listed(Text(), "[table_data]", doc=_("panels that are left out")),
     "panels": ByAddress(Table(PANEL), doc=_("place, size and scale of single panels by their names")),
-    **{
-        each: Table(WORDS, doc=_("the texts in the language {language}", language=each)) for each in LANGUAGES
-    },
+    **{each: Table(WORDS, doc=_("the texts in the language {language}", language=each)) for each in LANGUAGES},
 }
 
 
@@ -71,9 +64,7 @@ class SheetSection(Free):
     """The section ``sheet``: stored as written, checked by its keys."""
 
     def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
-        return (
-            None if reader.table(node, place, SHEET) is None else super().read(reader, node, place, siblings)
-        )
+        return None if reader.table(node, place, SHEET) is None else super().read(reader, node, place, siblings)
 
     def shape(self) -> Schema:
         return table_schema(SHEET)

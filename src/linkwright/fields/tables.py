@@ -116,8 +116,7 @@ class Listed(Field):
         if items is None:
             return None
         return tuple(
-            self.item.read(reader, item, place.child(str(index)), siblings)
-            for index, item in enumerate(items)
+            self.item.read(reader, item, place.child(str(index)), siblings) for index, item in enumerate(items)
         )
 
     def shape(self) -> Schema:

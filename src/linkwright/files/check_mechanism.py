@@ -154,7 +154,7 @@ def _guides_at_odds(reader: Reader, root: MappingNode, mechanism: Mechanism) -> 
             key,
             _(
                 'the guide "{name}" holds "{link}" at an angle that is {off}° off the one at which '
-                "other guides hold it, so that they do not fit together",
+                "other guides hold it, so that they do not fit together"
             ),
             "at-odds",
             _("write block_angle: {fitting} deg"),
@@ -207,9 +207,7 @@ def _unlikely_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) 
                 radius=number(radius, 4),
             )
             problem = _(
-                "{sentence}, more than twice the link's size of {size} m",
-                sentence=sentence,
-                size=number(size, 4),
+                "{sentence}, more than twice the link's size of {size} m", sentence=sentence, size=number(size, 4)
             )
         else:
             problem = _("a link without mass has a moment of inertia", code="model.inertia_without_mass")
@@ -237,17 +235,13 @@ def _missing_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) -
         if name in sliding or not link.mass or below(root, "links", name, "inertia"):
             continue
         message = _(
-            'the link "{link}" turns and has a mass of {mass} kg, but no moment of inertia: it '
-            "counts as zero",
+            'the link "{link}" turns and has a mass of {mass} kg, but no moment of inertia: it counts as zero',
             link=name,
             mass=number(link.mass, 6),
         )
         at, remedy = (
             below(root, "links", name, "mass"),
-            _(
-                "add the moment of inertia about its mass centre (inertia: … kg·m²), or inertia: 0 "
-                "if that is meant",
-            ),
+            _("add the moment of inertia about its mass centre (inertia: … kg·m²), or inertia: 0 if that is meant"),
         )
         reader.error(at, f"links.{name}.inertia", message, remedy, "no-inertia", severity="warning")
 
@@ -273,9 +267,7 @@ def _assumed_centres(reader: Reader, root: MappingNode, mechanism: Mechanism) ->
                 below(root, "links", name, "mass"),
                 _("give mass_centre: [x, y] in the link's axes, or one of its points"),
             )
-            reader.error(
-                at, f"links.{name}.mass_centre", message, remedy, "no-mass-centre", severity="warning"
-            )
+            reader.error(at, f"links.{name}.mass_centre", message, remedy, "no-mass-centre", severity="warning")
 
 
 def _sliding(mechanism: Mechanism) -> set[str]:
@@ -302,8 +294,7 @@ def _phases_of_no_motion(reader: Reader, root: MappingNode, mechanism: Mechanism
         at = below(root, "loads", name, "phase", key)
         guides = [joint for joint in mechanism.guides if output.owner in mechanism.joints[joint].joined]
         message = _(
-            'the link "{link}" only slides: its angle never changes, so there is nothing to act by',
-            link=output.owner,
+            'the link "{link}" only slides: its angle never changes, so there is nothing to act by', link=output.owner
         )
         remedy = (
             _("name the guide's displacement: {word}: {guide}", word=key, guide=guides[0])

@@ -15,26 +15,15 @@ from linkwright.files.yaml_source import Refused, Source, check_count, root_node
 from linkwright.words import Message, _
 from linkwright.words.characters import UNFIT
 
-_HARMLESS_TAGS = frozenset(
-    f"tag:yaml.org,2002:{kind}" for kind in ("str", "int", "float", "map", "seq", "null")
-)
+_HARMLESS_TAGS = frozenset(f"tag:yaml.org,2002:{kind}" for kind in ("str", "int", "float", "map", "seq", "null"))
 _INNER_TAB = re.compile(r"(?<=\S)\t|(?<=\S )\t")
 _NAME = re.compile(r"[&*]([^\s,\[\]{}]*)")
 _SECOND = "another document"
 #: What the composer refuses, by a part of its complaint.
 _REFUSED = {
-    _SECOND: (
-        _("a second document begins here"),
-        _("one file holds one model: remove the --- and what follows"),
-    ),
-    "undefined alias": (
-        _('the alias "*{name}" has no anchor "&{name}" before it'),
-        _("write the value itself"),
-    ),
-    "second occurrence": (
-        _('the anchor "&{name}" is given twice'),
-        _("give every anchor a name of its own"),
-    ),
+    _SECOND: (_("a second document begins here"), _("one file holds one model: remove the --- and what follows")),
+    "undefined alias": (_('the alias "*{name}" has no anchor "&{name}" before it'), _("write the value itself")),
+    "second occurrence": (_('the anchor "&{name}" is given twice'), _("give every anchor a name of its own")),
 }
 
 
@@ -124,9 +113,7 @@ class _Converter:
             return Scalar(start.line, start.column, start.index, start.index, "")
         if found.tag not in _HARMLESS_TAGS:
             shown = found.tag.replace("tag:yaml.org,2002:", "!!")
-            self.remark(
-                start, _('the tag "{shown}" is not supported'), _("remove the tag"), "tag", shown=shown
-            )
+            self.remark(start, _('the tag "{shown}" is not supported'), _("remove the tag"), "tag", shown=shown)
         before = self.total
         self.total += 1
         self.open.add(own)
@@ -205,10 +192,7 @@ class _Converter:
         for source in sources:
             if not isinstance(source, Mapping):
                 self.remark(
-                    source,
-                    _("a merge key (<<) needs a mapping"),
-                    _("refer to an anchor of a mapping"),
-                    "merge",
+                    source, _("a merge key (<<) needs a mapping"), _("refer to an anchor of a mapping"), "merge"
                 )
                 continue
             found.entries += [entry for entry in source.entries if entry.key.text not in have]

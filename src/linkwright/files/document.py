@@ -58,10 +58,7 @@ class Document:
         """The error with its findings at their lines; those below keys ``without`` are not about the text."""
         root, other = _root(self.text), tuple(f"{key}." for key in without)
         return ModelError(
-            [
-                each if f"{each.key}.".startswith(other) else located(each, root, self.name)
-                for each in error.findings
-            ]
+            [each if f"{each.key}.".startswith(other) else located(each, root, self.name) for each in error.findings]
         )
 
     def set(self, address: str, value: str) -> None:
@@ -229,11 +226,7 @@ def _follow(root: Mapping, path: list[str]) -> tuple[Node, list[str]]:
             below = node.get(part)
         elif isinstance(node, Sequence):
             position = _AXES.get(part, part)
-            below = (
-                node.items[int(position)]
-                if position.isdecimal() and int(position) < len(node.items)
-                else None
-            )
+            below = node.items[int(position)] if position.isdecimal() and int(position) < len(node.items) else None
         if below is None:
             return node, path[index:]
         node = below

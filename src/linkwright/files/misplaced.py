@@ -136,20 +136,14 @@ def _sorted(reader: PlainReader, root: MappingNode) -> MappingNode:
         table = entry.value
         if entry.key.text in ("frame", *ELEMENTS) and isinstance(table, MappingNode):
             remaining = list[Entry]()
-            for section, run in groupby(
-                table.entries, partial(_belongs, within=entry.key.text, there=present)
-            ):
+            for section, run in groupby(table.entries, partial(_belongs, within=entry.key.text, there=present)):
                 found = [*run]
                 if section:
-                    moved.setdefault(section, []).extend(
-                        _report_misplaced(reader, found, section, entry.key.text)
-                    )
+                    moved.setdefault(section, []).extend(_report_misplaced(reader, found, section, entry.key.text))
                 else:
                     remaining += found
             entry = (
-                Entry(entry.key, replace(table, entries=remaining))
-                if len(remaining) < len(table.entries)
-                else entry
+                Entry(entry.key, replace(table, entries=remaining)) if len(remaining) < len(table.entries) else entry
             )
         entries.append(entry)
     for section, more in moved.items():
@@ -257,9 +251,7 @@ def _by_name(item: Node) -> Entry | None:
         return item.entries[0]
     for each in item.entries:
         if each.key.text in NAMED and isinstance(each.value, Scalar):
-            return Entry(
-                each.value, replace(item, entries=[other for other in item.entries if other is not each])
-            )
+            return Entry(each.value, replace(item, entries=[other for other in item.entries if other is not each]))
     return None
 
 
@@ -291,12 +283,7 @@ def _lowered(reader: PlainReader, root: MappingNode, known: tuple[str, ...]) -> 
 def _section_of(entry: Entry, known: tuple[str, ...]) -> str:
     """The section of an element that is no section itself; empty where it is none, or a driver by another word."""
     name, section = entry.key.text, _belongs(entry, within="", there={*known})
-    if (
-        not section
-        or section == "drivers"
-        or name in known
-        or nearest(name[:100], known, PROBABLE) == "frame"
-    ):
+    if not section or section == "drivers" or name in known or nearest(name[:100], known, PROBABLE) == "frame":
         return ""
     return section
 

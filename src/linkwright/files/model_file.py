@@ -70,9 +70,7 @@ def read_text(text: str, name: str) -> tuple[Mechanism | None, list[Finding]]:
     return read_tree(*read_root(text, name), name)
 
 
-def read_tree(
-    root: Node | None, findings: list[Finding], name: str
-) -> tuple[Mechanism | None, list[Finding]]:
+def read_tree(root: Node | None, findings: list[Finding], name: str) -> tuple[Mechanism | None, list[Finding]]:
     """The mechanism of what :func:`read_root` gives, or None where there is an error, and all findings."""
     if root is None:
         return None, findings
@@ -96,8 +94,7 @@ def read_nodes(text: str, name: str) -> tuple[Node | None, list[Finding]]:
     """The tree of a text as far as there is one, and what is wrong with the text itself."""
     root, remarks = compose(text.removeprefix("\ufeff"))
     return root, [
-        Finding("error", f"{name}:{r.line + 1}:{r.column + 1}", r.key, r.message, r.remedy, r.code)
-        for r in remarks
+        Finding("error", f"{name}:{r.line + 1}:{r.column + 1}", r.key, r.message, r.remedy, r.code) for r in remarks
     ]
 
 
@@ -105,8 +102,6 @@ def read_root(text: str, name: str) -> tuple[Node | None, list[Finding]]:
     """The tree of a text, None where there is nothing to read, and what is wrong with the text itself."""
     root, findings = read_nodes(text, name)
     if root is None or (isinstance(root, Scalar) and root.empty):
-        empty = Finding(
-            "error", f"{name}:1:1", "", _("the file is empty"), _("begin with format: 1"), "empty"
-        )
+        empty = Finding("error", f"{name}:1:1", "", _("the file is empty"), _("begin with format: 1"), "empty")
         return None, findings or [empty]
     return root, findings

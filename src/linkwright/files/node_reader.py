@@ -184,13 +184,7 @@ class PlainReader:
             remedy = _('write a plain "," in place of the full-width "，": {form}', form=form)
         code = "decimal-comma" if comma else "count"
         self.finding(
-            node,
-            place,
-            _("expected {count} values, found {found}"),
-            code,
-            remedy,
-            found=len(node.items),
-            count=count,
+            node, place, _("expected {count} values, found {found}"), code, remedy, found=len(node.items), count=count
         )
         return None
 
@@ -234,14 +228,7 @@ class PlainReader:
         if text is None or text in choices:
             return text
         remedy = listed(text, choices, "one_of")
-        self.finding(
-            node,
-            place,
-            _('"{text}" is not known here'),
-            "unknown-word",
-            remedy,
-            text=text,
-        )
+        self.finding(node, place, _('"{text}" is not known here'), "unknown-word", remedy, text=text)
         return None
 
     def of_kind(
@@ -286,8 +273,9 @@ class PlainReader:
     ) -> tuple[MappingNode, dict[str, Any]]:
         """The mapping with keys that are nearly known in the place of those, and its values."""
         keys = {each.key or name: name for name, each in fields.items()}
-        mapping = self._renamed(mapping, place, {each.old: key for key, name in keys.items()
-                                                 if (each := fields[name]).old})  # fmt: skip
+        mapping = self._renamed(
+            mapping, place, {each.old: key for key, name in keys.items() if (each := fields[name]).old}
+        )
         meant = self._in_place_of(mapping, place, {key: fields[name] for key, name in keys.items()})
         mapping, split = self.unknown_keys(mapping, place, list(keys), meant)
         found: dict[str, Any] = {}
@@ -338,9 +326,7 @@ class PlainReader:
             new=new,
         )
 
-    def _in_place_of(
-        self, mapping: MappingNode, place: Place, fields: Mapping[str, Field]
-    ) -> Mapping[str, str]:
+    def _in_place_of(self, mapping: MappingNode, place: Place, fields: Mapping[str, Field]) -> Mapping[str, str]:
         """The one key that is missing, by the only one that is not known, where it could have its value: a name of
         the model, though perhaps one that does not exist."""
         unknown = [entry for entry in mapping.entries if entry.key.text not in fields]

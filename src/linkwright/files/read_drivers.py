@@ -25,12 +25,10 @@ from linkwright.words.sentence import together
 TURN_FIELDS: Mapping[str, Field] = {
     "turn": LinkName(required=True, moving=True, doc=_("the link that is turned")),
     "about": JointName(("turn",), required=True, doc=_("the pin about which it turns")),
-    "relative_to": LinkName(
-        doc=_("the link against which (default: the frame, or the other link on the pin)")
-    ),
+    "relative_to": LinkName(doc=_("the link against which (default: the frame, or the other link on the pin)")),
 }
 SLIDE_FIELDS: Mapping[str, Field] = {
-    "slide": JointName(("slide",), required=True, doc=_("the prismatic joint that is driven")),
+    "slide": JointName(("slide",), required=True, doc=_("the prismatic joint that is driven"))
 }
 
 
@@ -40,18 +38,14 @@ def scan_input(reader: Reader, root: MappingNode) -> None:
     several = root.get("drivers")
     if node is None and isinstance(several, MappingNode) and several.entries:
         node = several.entries[0].value
-    reader.input_rotary = (
-        not isinstance(node, MappingNode) or as_meant(node, _every_key()).get("slide") is None
-    )
+    reader.input_rotary = not isinstance(node, MappingNode) or as_meant(node, _every_key()).get("slide") is None
 
 
 def read_drivers(reader: Reader, root: MappingNode, joints: Mapping[str, Joint]) -> dict[str, Driver]:
     """The drivers by name; a single one is named ``driver``."""
     one, several = root.get("driver"), root.get("drivers")
     if one is not None and several is not None:
-        reader.finding(
-            several, "drivers", _("driver and drivers are both present"), "choice", _("keep one of them")
-        )
+        reader.finding(several, "drivers", _("driver and drivers are both present"), "choice", _("keep one of them"))
     found: dict[str, Driver] = {}
     if one is not None:
         _add(reader, found, joints, one, "driver", Place("driver", "driver"))
@@ -89,10 +83,7 @@ def _add(
     if driver is None:
         return
     for other in found.values():
-        if other.joint == driver.joint and {other.link, other.relative_to} == {
-            driver.link,
-            driver.relative_to,
-        }:
+        if other.joint == driver.joint and {other.link, other.relative_to} == {driver.link, driver.relative_to}:
             reader.finding(
                 node,
                 place,
@@ -104,9 +95,7 @@ def _add(
     found[name] = driver
 
 
-def _read_driver(
-    reader: Reader, joints: Mapping[str, Joint], node: Node, name: str, place: Place
-) -> Driver | None:
+def _read_driver(reader: Reader, joints: Mapping[str, Joint], node: Node, name: str, place: Place) -> Driver | None:
     mapping = reader.mapping(node, place)
     if mapping is None:
         return None
@@ -157,9 +146,7 @@ def _refuse_nothing_driven(reader: Reader, mapping: MappingNode, place: Place) -
 def _meant(reader: Reader, mapping: MappingNode) -> str:
     """What to write where a driver's keys or values name a link that a pin joins to the frame, or such a pin; else
     empty."""
-    texts = {
-        text for key, value in mapping for text in (key, value.text if isinstance(value, Scalar) else "")
-    }
+    texts = {text for key, value in mapping for text in (key, value.text if isinstance(value, Scalar) else "")}
     for pin, links in reader.names.pins.items():
         link = next((each for each in links if each != "frame"), "")
         if len(links) == 2 and "frame" in links and texts & {pin, link}:
@@ -231,9 +218,7 @@ def _revolute(
         mine = [name for name, links in reader.names.pins.items() if link in links]
         remedy = _("its pins: {pins}", pins=tuple(mine)) if mine else _("it has no pins")
         at, key = node.get("about"), place.child("about")
-        reader.finding(
-            at, key, _('the link "{link}" has no pin at "{pin}"'), "reference", remedy, link=link, pin=pin
-        )
+        reader.finding(at, key, _('the link "{link}" has no pin at "{pin}"'), "reference", remedy, link=link, pin=pin)
         return None
     rest = [owner for owner in owners if owner != link]
     if other is None:
@@ -275,10 +260,7 @@ def _tell_against(reader: Reader, node: MappingNode, place: Place, link: str, pi
     reader.finding(
         at,
         key,
-        _(
-            'the pin "{pin}" joins "{link}" to "{other}", not to the frame, so its angle against '
-            '"{other}" is driven',
-        ),
+        _('the pin "{pin}" joins "{link}" to "{other}", not to the frame, so its angle against "{other}" is driven'),
         "doubtful",
         remedy,
         severity=severity,

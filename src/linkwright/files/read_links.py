@@ -48,11 +48,7 @@ def read_frame(reader: Reader, node: Node | None) -> Link:
     """The frame with its points."""
     if node is None:
         reader.finding(
-            None,
-            "frame",
-            _("the model has no frame"),
-            "missing-key",
-            _("add frame: {{points: {{O1: [0 m, 0 m]}}}}"),
+            None, "frame", _("the model has no frame"), "missing-key", _("add frame: {{points: {{O1: [0 m, 0 m]}}}}")
         )
         return Link("frame", "coordinates", {})
     points = below(node, "points")
@@ -81,9 +77,7 @@ def read_drawing(reader: Reader, node: Node | None, frame: Link) -> dict[str, Ve
     for name, place in found.items():
         value = below(node, name)
         if name not in everywhere and reader.names.listed:
-            near = offered(
-                name, everywhere, _("add it to the points of a link, or remove it from the drawing")
-            )
+            near = offered(name, everywhere, _("add it to the points of a link, or remove it from the drawing"))
             reader.finding(
                 value or node,
                 f"drawing.{name}",
@@ -132,9 +126,7 @@ def read_links(reader: Reader, node: Node | None, frame: Link, drawing: Mapping[
             _("add one, such as crank: {{points: [O1, A], length: 0.1 m}}"),
         )
     if len(mapping.entries) > MOST_LINKS:
-        message = _(
-            "a model of {count} links; at most {most} are read", count=len(mapping.entries), most=MOST_LINKS
-        )
+        message = _("a model of {count} links; at most {most} are read", count=len(mapping.entries), most=MOST_LINKS)
         reader.error(node, "links", message, _("split it up into machines of their own"), "many")
         return {}
     links: dict[str, Link] = {}
@@ -175,11 +167,7 @@ def _read_link(reader: Reader, node: Node, name: str, drawing: Mapping[str, Vec]
     if not points:
         if reader.error_count == before:
             reader.finding(
-                node,
-                place.child("points"),
-                _("the link has no points"),
-                "missing-key",
-                _("list them: [A, B]"),
+                node, place.child("points"), _("the link has no points"), "missing-key", _("list them: [A, B]")
             )
         return None
     assert isinstance(node, MappingNode)
@@ -236,10 +224,7 @@ def _place_points(
             return "coordinates", dict(points), ()
     elif len(points) == 1:
         if sizes:
-            wanted = (
-                _("a link with one point has a {size}", size=sizes[0]),
-                _("list its two points, or remove it"),
-            )
+            wanted = (_("a link with one point has a {size}", size=sizes[0]), _("list its two points, or remove it"))
         else:
             return "point", {points[0]: (0.0, 0.0)}, ()
     elif sizes == ["length"]:
@@ -247,9 +232,7 @@ def _place_points(
             return "length", {points[0]: (0.0, 0.0), points[1]: (values["length"], 0.0)}, (values["length"],)
         wanted = (
             _("{count} points, but one length", code="model.one_length", count=len(points)),
-            _(
-                "keep two in points and put the others under also: {{P: [x, y]}}, or give lengths and angle",
-            ),
+            _("keep two in points and put the others under also: {{P: [x, y]}}, or give lengths and angle"),
         )
     elif not sizes:
         return _from_drawing(reader, node, place, points, drawing)

@@ -40,23 +40,28 @@ HEADER: Mapping[str, Field] = {
     "source": LocalizedTextField(doc=_("where it is taken from")),
     "expected": Free(doc=_("numbers to compare results with; not interpreted")),
     "synthesis": Free(section="synthesis", doc=_("a task with its demands for the command synthesize")),
-    "report": Free(
-        doc=_("title, own text, order of sections and more for the command report"), section="report"
-    ),
+    "report": Free(doc=_("title, own text, order of sections and more for the command report"), section="report"),
     "sheet": SHEET_SECTION,
     "course": Free(
         section="course", doc=_("what the command variants changes, within which limits, and what it asks")
     ),
-    "optimize": Free(
-        section="optimize",
-        doc=_("variables, objectives and demands, for the command optimize"),
-    ),
+    "optimize": Free(section="optimize", doc=_("variables, objectives and demands, for the command optimize")),
     "gravity": GRAVITY,
 }
 SECTIONS = (
-    *HEADER, "parameters", "frame", "links", "joints", "assembly", "drawing", "driver", "drivers", "cycle", "loads",
+    *HEADER,
+    "parameters",
+    "frame",
+    "links",
+    "joints",
+    "assembly",
+    "drawing",
+    "driver",
+    "drivers",
+    "cycle",
+    "loads",
     "outputs",
-)  # fmt: skip
+)
 _NO_PARAMETER = _('"{name}" cannot name a parameter: it is {what}')
 #: Sections that are stored and not interpreted by the solvers.
 FREE_SECTIONS = tuple(name for name, each in HEADER.items() if isinstance(each, Free))
@@ -184,14 +189,10 @@ def read_parameters(reader: Reader, node: Node | None) -> dict[str, float]:
         if value is None:
             reader.broken.add(name)
             reader.kinds.setdefault(name, units.NONE)
-    return {
-        name: reader.values[name] for name in (entry.key.text for entry in entries) if name in reader.values
-    }
+    return {name: reader.values[name] for name in (entry.key.text for entry in entries) if name in reader.values}
 
 
-def _parameter(
-    reader: Reader, key: Node, node: Node, place: Place, unread: Mapping[str, list[str]]
-) -> float | None:
+def _parameter(reader: Reader, key: Node, node: Node, place: Place, unread: Mapping[str, list[str]]) -> float | None:
     """The value of a parameter; ``unread``: the names in this one and in those below it."""
     name = place.address
     reserved = {*expressions.OWN_NAMES, "t", "input"}

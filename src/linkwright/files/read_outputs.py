@@ -72,11 +72,7 @@ def free_name(
 
 
 def _named(
-    reader: Reader,
-    node: Node,
-    place: Place,
-    name: str,
-    known: Mapping[str, tuple[units.Dimension, Output | None]],
+    reader: Reader, node: Node, place: Place, name: str, known: Mapping[str, tuple[units.Dimension, Output | None]]
 ) -> NamedOutput | None:
     text = reader.quantity_text(node, place, "guide - 180 mm*wheel")
     if text is None:
@@ -130,11 +126,7 @@ def _dimension(expression: Expression, kinds: Mapping[str, units.Dimension]) -> 
 
 def _rates(output: Output | None) -> int:
     """How many derivatives in time of an output are known; of the input, None, two."""
-    if (
-        output is None
-        or KINDS[output.kind].form == "place"
-        or output.kind in ("angle", "displacement", "named")
-    ):
+    if output is None or KINDS[output.kind].form == "place" or output.kind in ("angle", "displacement", "named"):
         return 2
     return 1 if output.kind.endswith("velocity") or output.kind == "named_rate" else 0
 

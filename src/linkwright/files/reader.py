@@ -140,11 +140,7 @@ class Reader(PlainReader):
             offset = error.column + (0 if node.plain else 1)
         bare = error.code == "wrong-dimension" and self.kinds.get(text) == units.NONE
         remedy = (
-            _(
-                'give the parameter "{name}" its unit under parameters',
-                code="model.give_unit_there",
-                name=text,
-            )
+            _('give the parameter "{name}" its unit under parameters', code="model.give_unit_there", name=text)
             if bare
             else error.remedy
         )
@@ -192,9 +188,7 @@ class Reader(PlainReader):
         try:
             if expressions.is_literal(text, self.kinds) and units.unit_fits(text, dimension):
                 return False
-            return not variables.keys().isdisjoint(
-                expressions.parse(text, ChainMap(variables, self.kinds)).names
-            )
+            return not variables.keys().isdisjoint(expressions.parse(text, ChainMap(variables, self.kinds)).names)
         except QuantityError:
             return False
 
@@ -210,9 +204,7 @@ class Reader(PlainReader):
         found |= {f"{name}.displacement": length for name in self.names.sliding.values()}
         owned = {(link, point) for link, points in self.names.links.items() for point in points}
         places = {*(point for _unused, point in owned), *(f"{link}.{point}" for link, point in owned)}
-        found |= {
-            f"{each}{way}.{axis}": length for each in places for way in ("", ".position") for axis in "xy"
-        }
+        found |= {f"{each}{way}.{axis}": length for each in places for way in ("", ".position") for axis in "xy"}
         found |= {"t": units.DIMENSIONS["time"], "input": angle if self.input_rotary else length}
         self._variables = found
         return found
@@ -365,12 +357,7 @@ class Reader(PlainReader):
         found = self.output(value, place.child("over"), text)
         x = node.get("x")
         first = x.items[0] if isinstance(x, Sequence) and x.items else None
-        if (
-            found
-            and found.kind == "angle"
-            and isinstance(first, Scalar)
-            and units.unit_fits(first.text, "length")
-        ):
+        if found and found.kind == "angle" and isinstance(first, Scalar) and units.unit_fits(first.text, "length"):
             guide = self.names.blocks.get(found.owner)
             remedy = (
                 _("for the way of the link write the name of its guide: over: {guide}", guide=guide)
@@ -378,9 +365,7 @@ class Reader(PlainReader):
                 else _("name a guide or a point's coordinate, such as C.x", code="model.over_point")
             )
             message = _(
-                '"{link}" is the angle of that link, and x are lengths',
-                code="model.over_angle",
-                link=found.owner,
+                '"{link}" is the angle of that link, and x are lengths', code="model.over_angle", link=found.owner
             )
             self.error(value, place.child("over"), message, remedy, "unit")
             return None, "length"
@@ -398,9 +383,7 @@ class SectionReading:
         self.node, self.reader = (own.node, Reader(own.source)) if own else (node_of(section), Reader(""))
         self.where = "" if own else where
         self.values = field.read(self.reader, self.node, Place(key, key), {})
-        self.findings = dict.fromkeys(
-            replace(each, where=each.where or self.where) for each in self.reader.findings
-        )
+        self.findings = dict.fromkeys(replace(each, where=each.where or self.where) for each in self.reader.findings)
 
     def note(self, key: str, problem: str | LinkwrightError, code: str = "") -> None:
         """Notes what is wrong at a key of the section: a sentence, or an error that it makes."""

@@ -47,10 +47,7 @@ def read_source(source: str | Path) -> tuple[str, str]:
     if "\n" in str(source):
         raise _refuse(
             "<text>",
-            _(
-                "this is a text of several lines, where the name of a file is needed",
-                code="model.text_for_name",
-            ),
+            _("this is a text of several lines, where the name of a file is needed", code="model.text_for_name"),
             _("for the text of a model write lw.loads(text)", code="model.write_loads"),
             "no-file",
         )
@@ -148,9 +145,7 @@ def decode(content: bytes, name: str) -> str:
         before = content[: error.start]
         line, column = before.count(b"\n") + 1, len(before) - before.rfind(b"\n")
         problem = _(
-            "the file is not UTF-8: byte 0x{byte:02x} at offset {start}",
-            byte=content[error.start],
-            start=error.start,
+            "the file is not UTF-8: byte 0x{byte:02x} at offset {start}", byte=content[error.start], start=error.start
         )
         place = f"{name}:{line}:{column}"
         raise _refuse(place, problem, _("save it as UTF-8"), "encoding") from None

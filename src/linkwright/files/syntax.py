@@ -63,9 +63,7 @@ _PROBLEMS = {
         _("indent entries of one level by the same number of spaces"),
     ),
     "indentation_or_bracket": (
-        _(
-            "the indentation does not fit the lines above, or a bracket is closed that was not opened",
-        ),
+        _("the indentation does not fit the lines above, or a bracket is closed that was not opened"),
         _("indent entries of one level by the same number of spaces, and check the brackets"),
     ),
     "no_item": (
@@ -74,41 +72,28 @@ _PROBLEMS = {
     ),
     "item": (
         _("an item of a list cannot begin in the middle of a line"),
-        _(
-            "write the list as [A, B] or each item on a line of its own, and a minus without a "
-            "space behind it",
-        ),
+        _("write the list as [A, B] or each item on a line of its own, and a minus without a space behind it"),
     ),
     "apart": (
-        _(
-            "this does not belong to what is above: a bracket too many, or an indentation that does not fit",
-        ),
+        _("this does not belong to what is above: a bracket too many, or an indentation that does not fit"),
         _("check brackets and indentation"),
     ),
     "no_value": (_("a value is missing here"), _("write the value")),
     "block": (
         _("a value that begins with > or | is the text of the lines below it"),
-        _(
-            "put a text that begins so in quotes; a bound is written at least 30 deg or at most 60 kN",
-        ),
+        _("put a text that begins so in quotes; a bound is written at least 30 deg or at most 60 kN"),
     ),
     "half_character": (_("half of an escaped character"), _("write the character itself")),
     "some_control": (_("a control character"), _("remove it: a model is plain text")),
     "escape": (_("an unknown escape in a quoted text"), _("write \\\\ for a backslash")),
     "unknown_tag": (_("an unknown tag"), _("remove the tag (the word with !)")),
     "given_twice": (_("duplicate"), _("remove one")),
-    "blank_after": (
-        _('the blank after the colon of "{key_}" is no space ({character})'),
-        _("write a space there"),
-    ),
+    "blank_after": (_('the blank after the colon of "{key_}" is no space ({character})'), _("write a space there")),
     "no_space": (_('there is no space after the colon of "{key_}"'), _("write {key_}: {rest}")),
     "no_space_item": (_("there is no space after the dash of a list's item"), _("write - {rest}")),
     "equals_sign": (_('an equals sign follows the key "{key_}"'), _("write {key_}: {rest}")),
     "odd_quote": (_("the quotation mark {sign} is none of YAML"), _('write "…" in its place, or none')),
-    "comment": (
-        _('a line cannot begin with "{sign}"'),
-        _("begin a comment with #, or put the value in quotes"),
-    ),
+    "comment": (_('a line cannot begin with "{sign}"'), _("begin a comment with #, or put the value in quotes")),
 }
 #: Problems whose cause is where the unreadable part begins.
 _AT_THE_BEGINNING = ("no_colon", "open_quote", "beginning")
@@ -138,9 +123,7 @@ def explain(error: Any, text: str) -> Remark:
     ended = mark is not None and not text[mark.index :].strip()
     if began is not None and (ended or key in _AT_THE_BEGINNING):
         line, column = began
-    since = (
-        _(" (it began in line {line})", line=began[0] + 1) if began is not None and began[0] != line else ""
-    )
+    since = _(" (it began in line {line})", line=began[0] + 1) if began is not None and began[0] != line else ""
     if key is not None:
         sign, (message, remedy) = text.split("\n")[line][column : column + 1], _PROBLEMS[key]
         message = _("not readable as YAML: {message}{since}", message=message.format(sign=sign), since=since)
@@ -191,9 +174,7 @@ _BLANK = re.compile(r"^ *([\xa0\u2000-\u200b\u202f\u205f\u3000\ufeff])(?=\s*(?:-
 _TAB = re.compile(r"^ *(\t)(?=[ \t]*\S)", re.M)
 
 
-def _remarks(
-    found: Iterable[re.Match[str]], text: str, message: Message, remedy: Message, code: str
-) -> list[Remark]:
+def _remarks(found: Iterable[re.Match[str]], text: str, message: Message, remedy: Message, code: str) -> list[Remark]:
     """The remark for the first places of a text."""
     remarks = []
     for each in islice(found, _MOST):
@@ -211,9 +192,7 @@ def accident_remarks(text: str) -> list[Remark]:
             _CONFLICT.finditer(text),
             text,
             _('the mark "{sign}" of an unfinished merge of two versions'),
-            _(
-                "keep one of the two versions, and remove the other and the lines <<<<<<<, =======, >>>>>>>",
-            ),
+            _("keep one of the two versions, and remove the other and the lines <<<<<<<, =======, >>>>>>>"),
             "conflict",
         )
         if conflicts:
@@ -234,11 +213,7 @@ def accident_remarks(text: str) -> list[Remark]:
 def tab_remarks(text: str) -> list[Remark]:
     """A remark for each line that is indented with a tab, at most ten."""
     return _remarks(
-        _TAB.finditer(text),
-        text,
-        _("a tab in the indentation"),
-        pgettext("yaml", "indent with spaces"),
-        "tab",
+        _TAB.finditer(text), text, _("a tab in the indentation"), pgettext("yaml", "indent with spaces"), "tab"
     )
 
 
@@ -271,15 +246,11 @@ def wide_remarks(text: str) -> list[Remark]:
         places = [key.start(1) for key in _KEY.finditer(plain)]
         opened = min((plain.find(each) for each in "{[｛［【" if each in plain), default=len(plain))
         places += [
-            at
-            for at, each in enumerate(plain)
-            if each in "｛｝［］【】" or (each in "，、“”‘’" and at > opened)
+            at for at, each in enumerate(plain) if each in "｛｝［］【】" or (each in "，、“”‘’" and at > opened)
         ]
         if places:
             wide = line[min(places)]
-            message = _(
-                'the full-width character "{wide}" is no punctuation of YAML', code="yaml.wide", wide=wide
-            )
+            message = _('the full-width character "{wide}" is no punctuation of YAML', code="yaml.wide", wide=wide)
             found.append(Remark(number, min(places), message, wide_remedy(wide), "syntax"))
     return found[:_MOST]
 

@@ -17,9 +17,7 @@ from linkwright.mechanism.link import LINK_FIELDS, STRUCTURAL_POINTS, Link, Vec,
 from linkwright.mechanism.mechanism import GRAVITY, Cycle, Mechanism
 from linkwright.units import NONE, number, si_symbol
 
-_SAFE = re.compile(
-    r"[^\W\d_][^,\[\]{}#&*!|>'\"%@`:\n\t\\]*(?<! )|[+-]?\d[^,\[\]{}#&*!|>'\"%@`:\n\t\\]*(?<! )"
-)
+_SAFE = re.compile(r"[^\W\d_][^,\[\]{}#&*!|>'\"%@`:\n\t\\]*(?<! )|[+-]?\d[^,\[\]{}#&*!|>'\"%@`:\n\t\\]*(?<! )")
 _RESERVED = frozenset(("null", "Null", "NULL", "true", "false", "True", "False", "TRUE", "FALSE"))
 
 
@@ -33,12 +31,8 @@ def to_data(mechanism: Mechanism) -> Plain:
     """The mechanism as plain data in the layout of a model file."""
     texts = {address: expression.text for address, expression in mechanism.expressions.items()}
     data: Plain = {"format": 1, "name": HEADER["name"].written(mechanism.name)}
-    data |= {
-        key: HEADER[key].written(text) for key in ("purpose", "source") if (text := getattr(mechanism, key))
-    }
-    data["parameters"] = {
-        name: texts.get(name) or _parameter(mechanism, name) for name in mechanism.parameters
-    }
+    data |= {key: HEADER[key].written(text) for key in ("purpose", "source") if (text := getattr(mechanism, key))}
+    data["parameters"] = {name: texts.get(name) or _parameter(mechanism, name) for name in mechanism.parameters}
     data["frame"] = {"points": _substituted(_places(mechanism.frame.points), "frame", texts)}
     drawn = {**mechanism.frame.points, **mechanism.drawing}
     data["links"] = {name: _link(link, texts, drawn) for name, link in mechanism.links.items()}
@@ -48,9 +42,7 @@ def to_data(mechanism: Mechanism) -> Plain:
     data["drawing"] = _places(mechanism.drawing)
     data |= _drivers(mechanism.drivers, texts)
     fields, cycle = Cycle.fields(mechanism.across), mechanism.cycle.dimensions() if mechanism.cycle else {}
-    cycle_values = {
-        key: fields[key].written(cycle[f"cycle.{key}"]) for key in fields if f"cycle.{key}" in cycle
-    }
+    cycle_values = {key: fields[key].written(cycle[f"cycle.{key}"]) for key in fields if f"cycle.{key}" in cycle}
     data["cycle"] = _substituted(cycle_values, "cycle", texts)
     gravity = _substituted(GRAVITY.written(mechanism.gravity), "gravity", texts)
     data["gravity"] = [] if gravity == [0.0, 0.0] else gravity

@@ -82,11 +82,7 @@ class Source:
     def part(self, offset: int) -> bool:
         """Whether a colon of a mapping in braces stood at the offset, and has a space behind it now."""
         behind = self.text[offset + 1 : offset + 2]
-        if (
-            len(self._shifts) >= MOST_SHIFTS
-            or self.text[offset : offset + 1] != ":"
-            or behind not in tuple(",[]{}")
-        ):
+        if len(self._shifts) >= MOST_SHIFTS or self.text[offset : offset + 1] != ":" or behind not in tuple(",[]{}"):
             return False
         self.text = f"{self.text[: offset + 1]} {self.text[offset + 1 :]}"
         later = [(at + 1 if at > offset else at, shift) for at, shift in self._shifts]

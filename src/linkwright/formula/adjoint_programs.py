@@ -50,9 +50,7 @@ def along_positions(
     return along, across_designs(_after_positions(program, active, along))
 
 
-def _lines(
-    replay: Replay, weights: Mapping[Reduction, Scalar], active: Collection[str]
-) -> dict[str, Scalar | bool]:
+def _lines(replay: Replay, weights: Mapping[Reduction, Scalar], active: Collection[str]) -> dict[str, Scalar | bool]:
     """At one position the adjoints of the active lines per design."""
     program = replay.program
     lines, places = depending(program, active), dict(program.outputs)

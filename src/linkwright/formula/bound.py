@@ -60,9 +60,7 @@ class BoundPlan:
             i: self._design_numbers[k, ...] for k, i in enumerate(self._numbers_at)
         }
         self._arrays = self._lay_out(registers)
-        self._calls = self._calls_for(
-            [i for i, line in enumerate(lines.lines) if line.varies and line.is_operation]
-        )
+        self._calls = self._calls_for([i for i, line in enumerate(lines.lines) if line.varies and line.is_operation])
         self._calls += [(np.copyto, (self.outputs[row], self._arrays[i])) for row, i in registers.copies]
         self._design_calls = [] if self._single else self._calls_for(lines.design_lines())
 

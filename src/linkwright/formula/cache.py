@@ -29,15 +29,7 @@ _IN_MEMORY = 128
 SIZE_LIMIT = 64 * 1024 * 1024
 _DIGEST = 32
 _SUFFIX = ".lwcode"
-_SOURCES = (
-    "ir_*.py",
-    "kernel*.py",
-    "functions.py",
-    "table.py",
-    "lines.py",
-    "reductions.py",
-    "machine_code.py",
-)
+_SOURCES = ("ir_*.py", "kernel*.py", "functions.py", "table.py", "lines.py", "reductions.py", "machine_code.py")
 
 _memory: OrderedDict[str, machine_code.Loaded] = OrderedDict()
 _lock = threading.RLock()

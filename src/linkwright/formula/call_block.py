@@ -78,9 +78,7 @@ class Inputs:
         self.positions = _taken("position", program.positions, positions)
         self.fields = _taken("field", program.fields, fields)
         bound, used = (*self._bound_positions, *self._bound_fields), (*self.positions, *self.fields)
-        self._unconverted = bool(bound) and all(
-            own is each for own, (_, each) in zip(used, bound, strict=True)
-        )
+        self._unconverted = bool(bound) and all(own is each for own, (_, each) in zip(used, bound, strict=True))
         self._tables = list(tables or [])
         self._numbers = [table.numbers for table in self._tables]
         lengths = {array.shape[-1] for array in used}
@@ -118,11 +116,7 @@ class Inputs:
             tail = (0, 0, rest)
         sources = [address_of(array) for array in (*self.positions, *self.fields, *self._numbers)]
         block = np.zeros(Block.INPUTS + len(sources), dtype=np.int64)
-        block[Block.LENGTH], block[Block.COUNT], block[Block.FULL_END] = (
-            self.stride,
-            self.length,
-            full * self.width,
-        )
+        block[Block.LENGTH], block[Block.COUNT], block[Block.FULL_END] = (self.stride, self.length, full * self.width)
         block[Block.TAIL_START], block[Block.TAIL_LOW], block[Block.TAIL_HIGH] = tail
         block[Block.INPUTS :] = sources
         return block

@@ -103,38 +103,24 @@ FUNCTIONS: dict[str, Function] = {
         exact="sqrt",
     ),
     "abs": Function(
-        abs,
-        "absolute",
-        _sloped(lambda t, x, value: t.select(t.compare("less", x, 0.0), -1.0, 1.0)),
-        exact="fabs",
+        abs, "absolute", _sloped(lambda t, x, value: t.select(t.compare("less", x, 0.0), -1.0, 1.0)), exact="fabs"
     ),
     "floor": Function(_floor, "floor", _sloped(lambda t, x, value: 0.0), exact="floor"),
-    "sin": Function(
-        _guarded(math.sin), "sin", _sloped(lambda t, x, value: t.function("cos", x)), library="sin"
-    ),
+    "sin": Function(_guarded(math.sin), "sin", _sloped(lambda t, x, value: t.function("cos", x)), library="sin"),
     "cos": Function(
         _guarded(math.cos), "cos", _sloped(lambda t, x, value: t.neg(t.function("sin", x))), library="cos"
     ),
     "tan": Function(
-        _guarded(math.tan),
-        "tan",
-        _sloped(lambda t, x, value: t.add(1.0, t.mul(value, value))),
-        library="tan",
+        _guarded(math.tan), "tan", _sloped(lambda t, x, value: t.add(1.0, t.mul(value, value))), library="tan"
     ),
     "asin": Function(
         _guarded(math.asin), "arcsin", _sloped(lambda t, x, value: t.div(1.0, _root_of(t, x))), library="asin"
     ),
     "acos": Function(
-        _guarded(math.acos),
-        "arccos",
-        _sloped(lambda t, x, value: t.div(-1.0, _root_of(t, x))),
-        library="acos",
+        _guarded(math.acos), "arccos", _sloped(lambda t, x, value: t.div(-1.0, _root_of(t, x))), library="acos"
     ),
     "atan": Function(
-        math.atan,
-        "arctan",
-        _sloped(lambda t, x, value: t.div(1.0, t.add(1.0, t.mul(x, x)))),
-        library="atan",
+        math.atan, "arctan", _sloped(lambda t, x, value: t.div(1.0, t.add(1.0, t.mul(x, x)))), library="atan"
     ),
     "exp": Function(_exp, "exp", _sloped(lambda t, x, value: value), library="exp"),
     "log": Function(_log, "log", _sloped(lambda t, x, value: t.div(1.0, x)), library="log"),

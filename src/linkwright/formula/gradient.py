@@ -92,11 +92,7 @@ class Gradient:
         return along_positions(self.program, spread, self.wrt, fused=self._fused is not None)
 
     def values(
-        self,
-        table: ArrayLike,
-        positions: Arrays | None = None,
-        fields: Arrays | None = None,
-        **how: Unpack[How],
+        self, table: ArrayLike, positions: Arrays | None = None, fields: Arrays | None = None, **how: Unpack[How]
     ) -> Floats:
         """The value alone, (designs,)."""
         plain = Accumulation(self.program, tuple(self.read.values()), self.valid)
@@ -127,9 +123,7 @@ class Gradient:
             value: Floats = np.array(results[self._alone], dtype=np.float64)
         else:
             columns = self._columns(numbers, results)
-            columns_by_name = {
-                name: np.asarray(columns[name], dtype=np.float64) for name in self._values.positions
-            }
+            columns_by_name = {name: np.asarray(columns[name], dtype=np.float64) for name in self._values.positions}
             value = over_designs(self._values, columns_by_name, len(numbers), run)[0].copy()
         if self.complete:
             value[results[VALID_COUNT] != run.length] = np.nan
@@ -137,11 +131,7 @@ class Gradient:
 
     # the way back ---------------------------------------------------------------------------------------
     def evaluate(
-        self,
-        table: ArrayLike,
-        positions: Arrays | None = None,
-        fields: Arrays | None = None,
-        **how: Unpack[How],
+        self, table: ArrayLike, positions: Arrays | None = None, fields: Arrays | None = None, **how: Unpack[How]
     ) -> tuple[Floats, Floats]:
         """Value (designs,) and gradient (designs, wrt); NaN for designs without the value.
 
@@ -168,9 +158,13 @@ class Gradient:
         if self._alone is not None:
             return self._from_summaries({self._alone: np.ones(len(numbers))}, columns, fields, run)
         found = self._through(
-            self.total, self.total.output_names, (*self.wrt, *self.read),
-            {**columns, bar(self.total.output_names[0]): np.ones(len(numbers))}, len(numbers), run,
-        )  # fmt: skip
+            self.total,
+            self.total.output_names,
+            (*self.wrt, *self.read),
+            {**columns, bar(self.total.output_names[0]): np.ones(len(numbers))},
+            len(numbers),
+            run,
+        )
         bars = {name: each for name, each in found.items() if name in self.wrt}
         _add(bars, self._from_summaries(found, columns, fields, run))
         return bars
@@ -197,20 +191,11 @@ class Gradient:
         for place, outputs in places.items():
             there_columns = {**columns, **self._there(columns[place.name], fields, run)}
             there_columns |= {bar(name): weight for name, weight in outputs.items()}
-            _add(
-                bars,
-                self._through(self.program, tuple(outputs), self.wrt, there_columns, count, run),
-            )
+            _add(bars, self._through(self.program, tuple(outputs), self.wrt, there_columns, count, run))
         return bars
 
     def _through(
-        self,
-        source: Program,
-        outputs: Sequence[str],
-        active: Sequence[str],
-        columns: Columns,
-        count: int,
-        run: Run,
+        self, source: Program, outputs: Sequence[str], active: Sequence[str], columns: Columns, count: int, run: Run
     ) -> dict[str, Floats]:
         """From derivatives by outputs, columns of their own, those by inputs at one position of every design."""
         key = (str(source is self.program), *outputs)

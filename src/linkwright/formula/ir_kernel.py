@@ -9,9 +9,7 @@ from linkwright.formula.lines import Lines
 from linkwright.formula.reductions import Accumulation
 
 
-def kernel(
-    lines: Lines, width: int, accumulation: Accumulation | None, *, library: bool = False
-) -> tuple[str, int]:
+def kernel(lines: Lines, width: int, accumulation: Accumulation | None, *, library: bool = False) -> tuple[str, int]:
     """The module, and how much it is to be optimised; ``library``: functions are called from outside, by lanes."""
     text = Kernel(lines, width, accumulation, library).text()
     return text, optimisation(text)
@@ -83,10 +81,7 @@ class Kernel:
     def _design_inputs(self) -> list[str]:
         shape, accumulation = self.shape, self.accumulation
         parameters = shape.parameters if accumulation is None else len(accumulation.parameters)
-        code = [
-            f"%p.at = mul i64 %d, {parameters}",
-            "%p.row = getelementptr double, ptr %parameters, i64 %p.at",
-        ]
+        code = [f"%p.at = mul i64 %d, {parameters}", "%p.row = getelementptr double, ptr %parameters, i64 %p.at"]
         for index, line in enumerate(self.lines.lines):
             if line.op == "parameter":
                 code += [

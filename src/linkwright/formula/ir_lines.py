@@ -103,9 +103,7 @@ class LineWriter(Lanes):
             return self._look_up(line, value, args[0], vector)
         return _OTHER[line.op](self, line, value, kind, args, vector)
 
-    def _function(
-        self, function: Function, value: str, kind: str, args: list[str], vector: bool
-    ) -> list[str]:
+    def _function(self, function: Function, value: str, kind: str, args: list[str], vector: bool) -> list[str]:
         """An intrinsic, a function in all lanes, or a call of the C library, lane by lane."""
         if function.exact:
             suffix = f"v{self.width}f64" if vector else "f64"

@@ -92,10 +92,7 @@ def module_text(body: list[str], width: int) -> str:
         *(f"declare double @llvm.{name}.f64(double)" for name in exact),
         *(f"declare double @llvm.vector.reduce.{name}.{suffix}({vector})" for name in ("fmin", "fmax")),
         f"declare double @llvm.vector.reduce.fadd.{suffix}(double, {vector})",
-        *(
-            f"declare i64 @llvm.vector.reduce.{name}.v{width}i64({integers})"
-            for name in ("add", "smin", "or")
-        ),
+        *(f"declare i64 @llvm.vector.reduce.{name}.v{width}i64({integers})" for name in ("add", "smin", "or")),
         f"declare {vector} @llvm.masked.gather.{suffix}.v{width}p0({pointers}, i32, {mask}, {vector})",
         *(
             f"declare double @linkwright_{f.library}({', '.join(['double'] * len(f.slopes))}) "
@@ -104,9 +101,7 @@ def module_text(body: list[str], width: int) -> str:
             if f.library
         ),
     ]
-    return "\n".join(
-        [*declarations, *body, *lookup_functions(body, width), *vector_functions(body, width), ""]
-    )
+    return "\n".join([*declarations, *body, *lookup_functions(body, width), *vector_functions(body, width), ""])
 
 
 def optimisation(text: str) -> int:

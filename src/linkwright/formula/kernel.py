@@ -37,9 +37,7 @@ class Vector:
     def __add__(self, other: Vector | float) -> Vector:
         raise NotImplementedError
 
-    __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __rtruediv__ = __lt__ = __gt__ = (
-        __add__
-    )
+    __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __rtruediv__ = __lt__ = __gt__ = __add__
 
     def __neg__(self) -> Vector:
         raise NotImplementedError
@@ -189,9 +187,7 @@ class Kernels:
     def _prototype(self, name: str) -> Any:
         kinds: dict[str | None, Any] = {"int": ctypes.c_int64, "float": ctypes.c_double, None: None}
         tree = self.trees[name]
-        kinds_of_arguments = [
-            kinds.get(annotation(each.annotation), ctypes.c_void_p) for each in tree.args.args
-        ]
+        kinds_of_arguments = [kinds.get(annotation(each.annotation), ctypes.c_void_p) for each in tree.args.args]
         result = kinds[annotation(tree.returns)]
         return self._code().function(name, ctypes.CFUNCTYPE(result, *kinds_of_arguments))
 

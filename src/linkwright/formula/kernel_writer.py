@@ -311,14 +311,10 @@ class KernelWriter(ComplexWriter):
         return self.b.call(add, [ir.Constant(self.real, 0.0), value], fastmath=_FLAGS)
 
     def _call_smallest(self, value: Any) -> Any:
-        return self.b.call(
-            self._outside(f"llvm.vector.reduce.fmin.v{LANES}f64", self.real, self.vector), [value]
-        )
+        return self.b.call(self._outside(f"llvm.vector.reduce.fmin.v{LANES}f64", self.real, self.vector), [value])
 
     def _call_marked(self, value: Any, index: Any) -> Any:
-        cleared = self.b.and_(
-            self.b.bitcast(value, self.integers), ir.Constant(self.integers, [~4095] * LANES)
-        )
+        cleared = self.b.and_(self.b.bitcast(value, self.integers), ir.Constant(self.integers, [~4095] * LANES))
         return self.b.bitcast(self.b.or_(cleared, self.b.fptosi(index, self.integers)), self.vector)
 
     def _call_mark_of(self, value: Any) -> Any:

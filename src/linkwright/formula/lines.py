@@ -66,11 +66,7 @@ class Lines:
                 where.append(where[args[0]])
             else:
                 where.append(builder.operation(op, [where[i] for i in args], varies))
-        return cls(
-            tuple(builder.lines),
-            tuple(where[i] for _, i in program.outputs),
-            len(program.tables),
-        )
+        return cls(tuple(builder.lines), tuple(where[i] for _, i in program.outputs), len(program.tables))
 
     def design_lines(self) -> list[int]:
         """The lines evaluated once per design, inputs left out."""

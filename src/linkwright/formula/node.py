@@ -28,9 +28,7 @@ class Node(NamedTuple):
 Entry = tuple[str, tuple[int, ...], float, str, bool]
 
 
-def needed(
-    arguments: Callable[[int], Iterable[int]], wanted: Iterable[int], stop: Container[int] = ()
-) -> list[int]:
+def needed(arguments: Callable[[int], Iterable[int]], wanted: Iterable[int], stop: Container[int] = ()) -> list[int]:
     """The lines that the wanted ones are found from, in order; what is behind ``stop`` is left out.
 
     ``arguments``: the numbers of the lines that a line takes.

@@ -127,12 +127,7 @@ class NumpyProgram:
                 yield part, columns, outputs
 
     def _columns(
-        self,
-        table: Floats,
-        sources: list[Source],
-        tables: list[Table],
-        n: int,
-        width: int,
+        self, table: Floats, sources: list[Source], tables: list[Table], n: int, width: int
     ) -> Iterator[tuple[slice, Floats]]:
         """Some designs, ``width`` positions at a time."""
         plan: BoundPlan | None = None

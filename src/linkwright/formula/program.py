@@ -11,16 +11,7 @@ from typing import Literal
 from linkwright.formula.node import COMPARISONS, Entry, Node, needed
 from linkwright.formula.trace import Scalar, Trace
 
-SYMBOLS = {
-    "add": "+",
-    "sub": "-",
-    "mul": "*",
-    "div": "/",
-    "less": "<",
-    "less_equal": "<=",
-    "and": "&",
-    "or": "|",
-}
+SYMBOLS = {"add": "+", "sub": "-", "mul": "*", "div": "/", "less": "<", "less_equal": "<=", "and": "&", "or": "|"}
 
 
 @dataclass(frozen=True)
@@ -52,8 +43,7 @@ class Program:
         order = needed(lambda index: entries[index][1], [i for _, i in outputs])
         number = {old: new for new, old in enumerate(order)}
         return Program(
-            tuple(_renumbered(entries[old], number) for old in order),
-            tuple((name, number[i]) for name, i in outputs),
+            tuple(_renumbered(entries[old], number) for old in order), tuple((name, number[i]) for name, i in outputs)
         )
 
     def with_inputs(self, names: Container[str], op: Literal["field", "position"] = "field") -> Program:
@@ -63,9 +53,7 @@ class Program:
             if not node.args and node.name in names:
                 nodes.append(node._replace(op=op, varies=True))
             else:
-                nodes.append(
-                    node._replace(varies=node.varies or any(nodes[each].varies for each in node.args))
-                )
+                nodes.append(node._replace(varies=node.varies or any(nodes[each].varies for each in node.args)))
         return Program(tuple(nodes), self.outputs)
 
     @cached_property

@@ -172,9 +172,7 @@ def _result(kind: str, accumulated: Floats, valid: Floats) -> Floats | Integers:
     return accumulated
 
 
-def accumulate(
-    accumulation: Accumulation, table: Floats, outputs: Floats, names: Sequence[str], first: int
-) -> None:
+def accumulate(accumulation: Accumulation, table: Floats, outputs: Floats, names: Sequence[str], first: int) -> None:
     """Let positions ``first``… of (outputs, designs, positions) enter the accumulators (in place)."""
     rows = dict(zip(names, outputs, strict=True))
     mask = None if accumulation.valid is None else rows[accumulation.valid] != 0.0
@@ -191,12 +189,7 @@ def accumulate(
 
 
 def _extreme(
-    accumulation: Accumulation,
-    step: Step,
-    rows: dict[str, Floats],
-    mask: Flags | None,
-    table: Floats,
-    first: int,
+    accumulation: Accumulation, step: Step, rows: dict[str, Floats], mask: Flags | None, table: Floats, first: int
 ) -> None:
     """An extreme, and its position number."""
     values, into = rows[step.output], table[:, accumulation.column[step]]

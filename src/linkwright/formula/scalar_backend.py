@@ -61,8 +61,7 @@ _PLAIN: dict[str, Callable[[Any, Any], Any]] = {
     "truth": _of_one(bool),
 }
 _CAREFUL = _PLAIN | {
-    op: _of_one(function.value) if len(function.slopes) == 1 else function.value
-    for op, function in FUNCTIONS.items()
+    op: _of_one(function.value) if len(function.slopes) == 1 else function.value for op, function in FUNCTIONS.items()
 }
 _QUICK = _CAREFUL | {
     "div": operator.truediv,
@@ -137,16 +136,12 @@ class ScalarProgram:
         self._design = LineRunner(lines, self.lines.design_lines())
         self._position = LineRunner(lines, [i for i, x in enumerate(lines) if x.varies and x.is_operation])
         self._inputs = {
-            op: [i for i, line in enumerate(lines) if line.op == op]
-            for op in ("parameter", "position", "field")
+            op: [i for i, line in enumerate(lines) if line.op == op] for op in ("parameter", "position", "field")
         }
         self._prepared: tuple[tuple[float, ...] | None, list[Any]] = (None, [])
 
     def step(
-        self,
-        parameters: Sequence[float],
-        positions: Sequence[float],
-        fields: Sequence[float] = (),
+        self, parameters: Sequence[float], positions: Sequence[float], fields: Sequence[float] = ()
     ) -> list[float]:
         """Outputs at one position.
 

@@ -62,9 +62,7 @@ class Summaries:
     ``valid``: the truth output that says which positions enter; without an output of this name all do.
     """
 
-    def __init__(
-        self, program: Program, reductions: Sequence[Reduction], valid: str | None = "valid"
-    ) -> None:
+    def __init__(self, program: Program, reductions: Sequence[Reduction], valid: str | None = "valid") -> None:
         self.program, self.parameters = program, program.parameters
         judged = valid if valid in program.output_names else None
         self._accumulation = Accumulation(program, tuple(reductions), judged)
@@ -76,11 +74,7 @@ class Summaries:
         return None if taken == self.parameters else [self.parameters.index(name) for name in taken]
 
     def evaluate(
-        self,
-        table: ArrayLike,
-        positions: Arrays | None = None,
-        fields: Arrays | None = None,
-        **how: Unpack[How],
+        self, table: ArrayLike, positions: Arrays | None = None, fields: Arrays | None = None, **how: Unpack[How]
     ) -> Results:
         """The summaries by their names, (designs,) each.
 
@@ -136,9 +130,7 @@ def in_blocks(
         find(numbers[k : k + several], {name: each[k : k + several] for name, each in columns.items()}, run)
         for k in range(0, len(numbers) or 1, several)
     ]
-    return (
-        parts[0] if len(parts) == 1 else {name: np.concatenate([p[name] for p in parts]) for name in parts[0]}
-    )
+    return parts[0] if len(parts) == 1 else {name: np.concatenate([p[name] for p in parts]) for name in parts[0]}
 
 
 def over_designs(program: Program, columns: Mapping[str, ArrayLike], count: int, run: Run) -> Floats:
@@ -178,14 +170,10 @@ def reduced(accumulation: Accumulation, table: Floats, fields: Arrays, run: Run)
     compiled = code_for(accumulation.program, accumulation, run, len(table))
     if compiled is None:
         return _by_numpy(accumulation, table, fields, run)
-    return compiled.sweep(
-        table, run.positions, fields, threads=run.threads, length=run.length, tables=run.tables
-    )
+    return compiled.sweep(table, run.positions, fields, threads=run.threads, length=run.length, tables=run.tables)
 
 
-def code_for(
-    program: Program, accumulation: Accumulation | None, run: Run, designs: int
-) -> CompiledProgram | None:
+def code_for(program: Program, accumulation: Accumulation | None, run: Run, designs: int) -> CompiledProgram | None:
     """The compiled program; None where NumPy is asked for, is all there is, or has answered before."""
     if run.backend == "numpy" or (run.backend == "auto" and designs * run.length < WORTH_COMPILING):
         return None

@@ -48,9 +48,7 @@ class Table:
         object.__setattr__(self, "coefficients", coefficients)
 
     @classmethod
-    def linear(
-        cls, x: ArrayLike, y: ArrayLike, *, periodic: bool = False, drift: float | None = None
-    ) -> Table:
+    def linear(cls, x: ArrayLike, y: ArrayLike, *, periodic: bool = False, drift: float | None = None) -> Table:
         """Straight lines between the points; beyond the ends the end values (not periodic) stay.
 
         ``periodic``: the drift is by default y's change over the table.

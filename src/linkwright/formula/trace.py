@@ -317,12 +317,7 @@ class Trace:
         return Value(self, index)
 
     def _line(
-        self,
-        op: str,
-        args: tuple[int, ...] = (),
-        constant: float = 0.0,
-        name: str = "",
-        varies: bool = False,
+        self, op: str, args: tuple[int, ...] = (), constant: float = 0.0, name: str = "", varies: bool = False
     ) -> Value:
         key = (op, name, *args, repr(constant))
         index = self._known.get(key)

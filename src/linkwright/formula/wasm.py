@@ -66,6 +66,4 @@ def _machines() -> dict[int, Any]:
                 code="export.no_webassembly",
             )
         ) from None
-    return {
-        level: target.create_target_machine(opt=level, features="+simd128,+bulk-memory") for level in (0, 3)
-    }
+    return {level: target.create_target_machine(opt=level, features="+simd128,+bulk-memory") for level in (0, 3)}

@@ -27,9 +27,12 @@ TEETH = (4, 2000)
 PRESSURE_ANGLES = (math.radians(5.0), math.radians(40.0))
 #: Ranges of what gears and racks have in common: m, rad, and in modules.
 TOOTH = {
-    "module": (1e-6, 10.0), "pressure_angle": PRESSURE_ANGLES, "addendum": (0.1, 3.0), "dedendum": (0.1, 3.0),
+    "module": (1e-6, 10.0),
+    "pressure_angle": PRESSURE_ANGLES,
+    "addendum": (0.1, 3.0),
+    "dedendum": (0.1, 3.0),
     "fillet": (0.0, 1.0),
-}  # fmt: skip
+}
 
 
 _NO_INVOLUTE = _(
@@ -126,9 +129,7 @@ class Gear:
     @property
     def thickness(self) -> float:
         """Tooth thickness on the pitch circle, along the arc, m."""
-        return self.module * (
-            math.pi / 2 + 2 * self.outward * self.profile_shift * math.tan(self.pressure_angle)
-        )
+        return self.module * (math.pi / 2 + 2 * self.outward * self.profile_shift * math.tan(self.pressure_angle))
 
     def half_angle(self, radii: Floats) -> Floats:
         """Half the angle (rad) that a tooth takes between its involutes at radii (n,) m; of a ring its space."""
@@ -142,8 +143,7 @@ class Gear:
         if not ends[0] * (1 - 1e-9) <= radius <= ends[1] * (1 + 1e-9):
             raise RequestError(
                 _(
-                    "at a radius of {radius:.6g} mm the flank is no involute; give {low:.6g} to "
-                    "{high:.6g} mm",
+                    "at a radius of {radius:.6g} mm the flank is no involute; give {low:.6g} to {high:.6g} mm",
                     code="gears.no_flank_there",
                     radius=1e3 * radius,
                     low=1e3 * ends[0],
@@ -214,17 +214,11 @@ def require_ranges(teeth: Any, ranges: Mapping[str, tuple[float, float]]) -> Non
         if not low <= value <= high:
             limits = {"value": f"{value:.6g}{unit}", "low": f"{low:.4g}", "high": f"{high:.4g}{unit}"}
             raise RequestError(
-                _("{name} is {value}; give {low} to {high}", code="gears.out_of_range").format(
-                    name=name, **limits
-                )
+                _("{name} is {value}; give {low} to {high}", code="gears.out_of_range").format(name=name, **limits)
             )
     if int(teeth.teeth) != teeth.teeth:
         raise RequestError(
-            _(
-                "a gear cannot have {teeth} teeth; give an integer",
-                code="gears.whole_teeth",
-                teeth=teeth.teeth,
-            )
+            _("a gear cannot have {teeth} teeth; give an integer", code="gears.whole_teeth", teeth=teeth.teeth)
         )
 
 
@@ -378,11 +372,7 @@ def ring_space(gear: Gear) -> ToothSpace:
         )
     size = min(gear.fillet * gear.module, 0.9 * half_root * base)
     centre = root - size
-    while (
-        centre > base
-        and float(gear.half_angle(np.array([centre]))[0]) - size / base < 0
-        and size > 1e-9 * root
-    ):
+    while centre > base and float(gear.half_angle(np.array([centre]))[0]) - size / base < 0 and size > 1e-9 * root:
         size *= 0.9
         centre = root - size
     angle = float(gear.half_angle(np.array([centre]))[0]) - size / base

@@ -99,9 +99,7 @@ class GearPair:
                 )
             )
         minimum = 0.5 * self._bases
-        if self.distance is not None and (
-            self.distance <= minimum or self.backlash < -1e-9 * self.pinion.module
-        ):
+        if self.distance is not None and (self.distance <= minimum or self.backlash < -1e-9 * self.pinion.module):
             raise RequestError(
                 _(
                     "a centre distance of {distance:.9g} mm is out of range: the flanks touch on both "
@@ -142,9 +140,7 @@ class GearPair:
     @property
     def backlash(self) -> float:
         """Play along the line of action (m): a turn of one gear by it over its base radius closes it."""
-        gained = (
-            involute(math.acos(min(0.5 * self._bases / self.centre_distance, 1.0))) - self._touching_involute
-        )
+        gained = involute(math.acos(min(0.5 * self._bases / self.centre_distance, 1.0))) - self._touching_involute
         return 0.0 if self.distance is None else self.wheel.outward * self._bases * gained
 
     @property
@@ -201,15 +197,10 @@ class GearPair:
         """
         a = self.centre_distance
         first, second = 0.5 * self.pinion.tip_diameter, 0.5 * self.wheel.tip_diameter
-        cosines = (
-            (second**2 - first**2 - a**2) / (2 * first * a),
-            (second**2 - first**2 + a**2) / (2 * second * a),
-        )
+        cosines = ((second**2 - first**2 - a**2) / (2 * first * a), (second**2 - first**2 + a**2) / (2 * second * a))
         if not self.wheel.internal or max(map(abs, cosines)) > 1:
             return -math.inf
-        tips = [
-            involute(math.acos(gear.base_diameter / gear.tip_diameter)) for gear in (self.pinion, self.wheel)
-        ]
+        tips = [involute(math.acos(gear.base_diameter / gear.tip_diameter)) for gear in (self.pinion, self.wheel)]
         working = involute(self.working_pressure_angle)
         pinion = math.acos(cosines[0]) + tips[0] - working
         return math.acos(cosines[1]) - working + tips[1] - pinion * self.pinion.teeth / self.wheel.teeth
@@ -222,8 +213,7 @@ class GearPair:
             if gear.undercut:
                 found.append(
                     _(
-                        "the gear of {teeth} teeth is undercut; a profile shift of {minimum:.4g} or more "
-                        "avoids it",
+                        "the gear of {teeth} teeth is undercut; a profile shift of {minimum:.4g} or more avoids it",
                         code="gears.undercut",
                         teeth=gear.teeth,
                         minimum=gear.minimum_profile_shift,
@@ -232,8 +222,7 @@ class GearPair:
         if self.contact_ratio == 0:
             found.append(
                 _(
-                    "no flank reaches the other: the gears do not touch; bring them nearer or give "
-                    "longer teeth",
+                    "no flank reaches the other: the gears do not touch; bring them nearer or give longer teeth",
                     code="gears.no_contact",
                 )
             )
@@ -262,8 +251,7 @@ class GearPair:
             if touched and not gear.undercut:
                 found.append(
                     _(
-                        "the mating tip reaches below the involute of the gear of {teeth} teeth, into its "
-                        "fillet",
+                        "the mating tip reaches below the involute of the gear of {teeth} teeth, into its fillet",
                         code="gears.fillet_touched",
                         teeth=gear.teeth,
                     )
@@ -300,9 +288,7 @@ class GearPair:
         raise NotImplementedError
 
     @attached
-    def save_dxf(
-        self, path: str | Path, pinion_angle: float = 0.0, *, points: int = 60, force: bool = False
-    ) -> Path:
+    def save_dxf(self, path: str | Path, pinion_angle: float = 0.0, *, points: int = 60, force: bool = False) -> Path:
         """The outlines, circles and the line of action at true scale (mm) as DXF; needs ezdxf."""
         raise NotImplementedError
 

@@ -39,8 +39,7 @@ class Rack:
         if self.dedendum * math.tan(self.pressure_angle) >= math.pi / 4:
             raise RequestError(
                 _(
-                    "the rack's spaces come to a point above the dedendum of {dedendum} modules; give a "
-                    "smaller one",
+                    "the rack's spaces come to a point above the dedendum of {dedendum} modules; give a smaller one",
                     code="gears.pointed_rack_space",
                     dedendum=self.dedendum,
                 )
@@ -48,8 +47,7 @@ class Rack:
         if self.addendum * math.tan(self.pressure_angle) >= math.pi / 4:
             raise RequestError(
                 _(
-                    "the rack's teeth come to a point below the addendum of {addendum} modules; give a "
-                    "smaller one",
+                    "the rack's teeth come to a point below the addendum of {addendum} modules; give a smaller one",
                     code="gears.pointed_rack",
                     addendum=self.addendum,
                 )

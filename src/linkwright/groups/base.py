@@ -104,6 +104,4 @@ class WholeGroup(Protocol):
         ...
 
 
-DYADS: Registry[type[Dyad]] = Registry(
-    _("Assur group"), "linkwright.groups", entry_points="linkwright.groups"
-)
+DYADS: Registry[type[Dyad]] = Registry(_("Assur group"), "linkwright.groups", entry_points="linkwright.groups")

@@ -62,12 +62,7 @@ class Entry:
     links: Mapping[str, ModelLink]
 
     def say(
-        self,
-        key: str,
-        problem: Message,
-        remedy: Message,
-        code: str = "reference",
-        severity: Severity = "error",
+        self, key: str, problem: Message, remedy: Message, code: str = "reference", severity: Severity = "error"
     ) -> None:
         """Adds a finding at one of the keys, or with ``""`` at the entry itself."""
         place = self.place.child(key) if key else self.place

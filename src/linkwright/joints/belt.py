@@ -44,9 +44,7 @@ class BeltPair(WheelPair):
         return {
             **super().fields(),
             "run": Word(("open", "crossed"), doc=_("default open")),
-            "pretension": Quantity(
-                "force", minimum=0, doc=_("tension of each strand without load (default 0)")
-            ),
+            "pretension": Quantity("force", minimum=0, doc=_("tension of each strand without load (default 0)")),
         }
 
     @classmethod

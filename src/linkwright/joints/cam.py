@@ -15,16 +15,7 @@ from linkwright.fields.base import Field, Quantity, Word
 from linkwright.fields.references import LinkName, PointName
 from linkwright.formula.trace import Scalar, acos, asin, select, sqrt
 from linkwright.formula.vector import Vec
-from linkwright.joints.base import (
-    JOINTS,
-    Entry,
-    HigherPair,
-    Joint,
-    Kinks,
-    LackingError,
-    Report,
-    Size,
-)
+from linkwright.joints.base import JOINTS, Entry, HigherPair, Joint, Kinks, LackingError, Report, Size
 from linkwright.joints.cam_geometry import Geometry
 from linkwright.joints.ends import Ends
 from linkwright.laws.program_fields import ProgramField
@@ -113,27 +104,18 @@ class CamJoint(HigherPair):
 
         return {
             "cam": LinkName(required=True, doc=_("the link with the cam, pinned on the carrier")),
-            "follower": LinkName(
-                required=True, doc=_("the link that is guided or pinned on the same carrier")
-            ),
-            "at": PointName(
-                "follower", required=True, doc=_("the roller's centre, the edge, a point of the face")
-            ),
+            "follower": LinkName(required=True, doc=_("the link that is guided or pinned on the same carrier")),
+            "at": PointName("follower", required=True, doc=_("the roller's centre, the edge, a point of the face")),
             "touch": Word(TOUCH, required=True, doc=_("what touches the cam")),
             "side": Word(
-                ("left", "right"),
-                doc=_("of the ray pivot to cam, where the arm of an oscillating follower lies"),
+                ("left", "right"), doc=_("of the ray pivot to cam, where the arm of an oscillating follower lies")
             ),
             "base_radius": Quantity(
                 "length", above=0, required=True, doc=pgettext("key", "radius of the base circle")
             ),
             "roller_radius": Quantity("length", above=0, doc=_("radius of the roller")),
-            "phase": Quantity(
-                "angle", doc=_("angle of the cam's x axis to the carrier's where the program begins")
-            ),
-            "turn": Word(
-                ("counterclockwise", "clockwise"), doc=_("turn of the cam in which the program runs on")
-            ),
+            "phase": Quantity("angle", doc=_("angle of the cam's x axis to the carrier's where the program begins")),
+            "turn": Word(("counterclockwise", "clockwise"), doc=_("turn of the cam in which the program runs on")),
             "closure": Word(
                 ("force", "groove"), doc=_("what keeps the contact: what presses it (default), a groove")
             ),
@@ -141,9 +123,7 @@ class CamJoint(HigherPair):
             "angles": Quantities("angle", doc=_("angles of a table of the lift, increasing within a turn")),
             "lifts": Quantities(
                 "length",
-                doc=_(
-                    "lifts of the table, between them a periodic spline; four equal ones or more are a rest"
-                ),
+                doc=_("lifts of the table, between them a periodic spline; four equal ones or more are a rest"),
             ),
         }
 
@@ -166,10 +146,7 @@ class CamJoint(HigherPair):
             entry.say(
                 "angles",
                 _("the table of the lift is none"),
-                _(
-                    "give as many lifts as angles, eight or more, the angles increasing from 0 to below "
-                    "360 deg",
-                ),
+                _("give as many lifts as angles, eight or more, the angles increasing from 0 to below 360 deg"),
                 "range",
             )
         elif (values["touch"] == "roller") != (values.get("roller_radius") is not None):
@@ -203,10 +180,7 @@ class CamJoint(HigherPair):
                     return replace(found, half_turns=round((held.own - held.along) / math.pi))
         problem, remedy = (
             (
-                _(
-                    "the oscillating follower {follower!r} has no pin on a link on which the cam {cam!r} "
-                    "turns",
-                ),
+                _("the oscillating follower {follower!r} has no pin on a link on which the cam {cam!r} turns"),
                 _("give that link a point that {follower!r} has as well: its pivot"),
             )
             if self.side
@@ -214,7 +188,7 @@ class CamJoint(HigherPair):
                 _("the follower {follower!r} has no guide on a link on which the cam {cam!r} turns"),
                 _(
                     "add a prismatic joint between them; for an oscillating follower say on which side "
-                    "its arm lies: side: left",
+                    "its arm lies: side: left"
                 ),
             )
         )
@@ -237,7 +211,7 @@ class CamJoint(HigherPair):
             remedy = (
                 _(
                     "take a base_radius above {minimum} and below {maximum}, or change the distance of "
-                    "follower and cam",
+                    "follower and cam"
                 )
                 if found.maximum < math.inf
                 else _("take a base_radius above {minimum}, or bring follower and cam nearer")

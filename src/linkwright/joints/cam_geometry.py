@@ -74,13 +74,7 @@ class Geometry:
 
     @classmethod
     def _guided(
-        cls,
-        joint: Follower,
-        guide: Guide,
-        mechanism: Model,
-        radius: float,
-        at: complex,
-        centre: complex,
+        cls, joint: Follower, guide: Guide, mechanism: Model, radius: float, at: complex, centre: complex
     ) -> Geometry:
         outward = guide.block == joint.follower
         on_guide, on_block = guide.direction, guide.block_angle

@@ -62,10 +62,7 @@ class GearPair(RollingPair):
             remedy = _("give teeth in place of the radii or the ratio, or leave the module out")
             entry.say(
                 "module",
-                _(
-                    "a module says nothing about wheels without numbers of teeth",
-                    code="joints.module_without_teeth",
-                ),
+                _("a module says nothing about wheels without numbers of teeth", code="joints.module_without_teeth"),
                 remedy,
                 "choice",
             )
@@ -118,11 +115,7 @@ class GearPair(RollingPair):
 
     def dimensions(self) -> Mapping[str, float]:
         own = {f"{self.name}.pressure_angle": self.pressure_angle}
-        return {
-            **super().dimensions(),
-            **own,
-            **({f"{self.name}.module": self.module} if self.module else {}),
-        }
+        return {**super().dimensions(), **own, **({f"{self.name}.module": self.module} if self.module else {})}
 
     def working_slope(self, mechanism: Model) -> float:
         """tan of the pressure angle in mesh."""

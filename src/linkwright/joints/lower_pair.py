@@ -37,8 +37,7 @@ class TurningJoint(Joint):
         if self.friction and self.pin_radius is None:
             raise LinkwrightError(
                 _(
-                    "joints.{name}: friction needs the pin's radius; add pin_radius, such as pin_radius: "
-                    "20 mm",
+                    "joints.{name}: friction needs the pin's radius; add pin_radius, such as pin_radius: 20 mm",
                     code="forces.needs_pin_radius",
                     name=self.name,
                 )

@@ -51,9 +51,7 @@ class PrismaticJoint(SlidingJoint):
         return {
             "guide": LinkName(required=True, doc=_("the link that carries the guide")),
             "through": PointName("guide", required=True, doc=_("point of the guide link on the guide line")),
-            "direction": Direction(
-                required=True, doc=_("an angle in the guide link's axes, or two points [P, Q]")
-            ),
+            "direction": Direction(required=True, doc=_("an angle in the guide link's axes, or two points [P, Q]")),
             "block": LinkName(required=True, doc=_("the link that slides")),
             "at": PointName("block", required=True, doc=_("point of the block that follows the line")),
             "offset": Quantity(
@@ -111,10 +109,7 @@ class PrismaticJoint(SlidingJoint):
         return True
 
     def written(self) -> dict[str, Any]:
-        return {
-            **super().written(),
-            "direction": Direction().written(self.direction_points or self.direction),
-        }
+        return {**super().written(), "direction": Direction().written(self.direction_points or self.direction)}
 
     # motion -----------------------------------------------------------------------------------
 
@@ -130,11 +125,7 @@ class PrismaticJoint(SlidingJoint):
         if step.child != self.block:
             own, other, start, end, sign = other, own, end, start, -1.0
         along = at.vector(step.parent, own) * sign
-        slid = (
-            at.point(step.parent, start)
-            + along * coordinate
-            + along.perp * at.dimension(f"{self.name}.offset")
-        )
+        slid = at.point(step.parent, start) + along * coordinate + along.perp * at.dimension(f"{self.name}.offset")
         return Hung(at.local(step.child, end), slid, own.conjugate.turn(other))
 
     def slide_direction(self, dimensions: Sizes) -> Vec:

@@ -13,14 +13,7 @@ from linkwright.fields.base import Field, Quantity
 from linkwright.fields.references import Direction, LinkName, PointName
 from linkwright.formula.trace import Mask, Scalar, absolute, tan
 from linkwright.formula.vector import Vec
-from linkwright.joints.base import (
-    JOINTS,
-    Entry,
-    HigherPair,
-    Joint,
-    Report,
-    Size,
-)
+from linkwright.joints.base import JOINTS, Entry, HigherPair, Joint, Report, Size
 from linkwright.joints.ends import Ends
 from linkwright.joints.gear import CLEARANCE, STANDARD
 from linkwright.joints.toothed import FITS, is_integer, length
@@ -82,13 +75,9 @@ class RackPair(HigherPair):
             "module": Quantity("length", above=0, doc=_("module, with teeth")),
             "phase": Quantity(
                 "angle",
-                doc=_(
-                    "angle of the pinion's x axis to the rack's when its centre is at through (default: drawn)"
-                ),
+                doc=_("angle of the pinion's x axis to the rack's when its centre is at through (default: drawn)"),
             ),
-            "pressure_angle": Quantity(
-                "angle", minimum=0, below=0.5 * pi, doc=_("pressure angle (default 20 deg)")
-            ),
+            "pressure_angle": Quantity("angle", minimum=0, below=0.5 * pi, doc=_("pressure angle (default 20 deg)")),
         }
 
     @classmethod
@@ -106,9 +95,7 @@ class RackPair(HigherPair):
             wheel = {"wheel": pinion}
             entry.say(
                 "pinion",
-                _('the wheel "{wheel}" has no pin about which it turns', code="joints.without_pin").format(
-                    **wheel
-                ),
+                _('the wheel "{wheel}" has no pin about which it turns', code="joints.without_pin").format(**wheel),
                 _('give "{wheel}" a point that a carrier (the frame, an arm) has as well: its centre').format(
                     **wheel
                 ),
@@ -146,10 +133,7 @@ class RackPair(HigherPair):
                     rack=self.rack,
                     pinion=self.pinion,
                 ),
-                _(
-                    "add a prismatic joint between the rack and the link that carries the pinion, along "
-                    "the rack",
-                ),
+                _("add a prismatic joint between the rack and the link that carries the pinion, along the rack"),
             )
             return replace(self, direction=self.direction or 0.0)
         wrong = self._misplaced(way)
@@ -158,10 +142,7 @@ class RackPair(HigherPair):
             remedy = (
                 _("give both the same direction, or leave the direction out")
                 if key == "direction"
-                else _(
-                    "move the rack's guide or the point through which its pitch line goes, or change the "
-                    "radius",
-                )
+                else _("move the rack's guide or the point through which its pitch line goes, or change the radius")
             )
             loose = self._misplaced(way, self._slack) is None
             report(key, problem, remedy, "warning" if loose else "error")
@@ -184,8 +165,7 @@ class RackPair(HigherPair):
         shown_distance, radius = length(distance), length(self.radius)
         key = "module" if self.module is not None else "radius"
         return key, _(
-            "the pinion's centre {centre!r} is {distance} away from the pitch line, but its "
-            "radius is {radius}",
+            "the pinion's centre {centre!r} is {distance} away from the pitch line, but its radius is {radius}",
             code="joints.rack_misfit",
             centre=way.centre,
             distance=shown_distance,
@@ -314,9 +294,7 @@ def _sized(entry: Entry) -> bool:
         entry.say("radius", _("the size is set twice", code="joints.sizes_twice"), remedy, "choice")
         return False
     if radius is None and (teeth is None or module is None):
-        entry.say(
-            "radius", _("nothing says how large the wheels are", code="joints.no_size"), remedy, "missing-key"
-        )
+        entry.say("radius", _("nothing says how large the wheels are", code="joints.no_size"), remedy, "missing-key")
         return False
     if teeth is not None and not is_integer(teeth):
         entry.say(
@@ -376,10 +354,7 @@ class _Search:
         here, gap, askew = dimensions.point(link, self.pair.through), Vec(0.0, 0.0), []
         for joint in route:
             outward = joint.guide == link
-            on_guide, on_block = (
-                joint.slide_direction(dimensions),
-                dimensions.unit(f"{joint.name}.block_angle"),
-            )
+            on_guide, on_block = (joint.slide_direction(dimensions), dimensions.unit(f"{joint.name}.block_angle"))
             start, end = (joint.through, joint.at) if outward else (joint.at, joint.through)
             n = axes.turn(on_guide if outward else on_block)
             offset = dimensions(f"{joint.name}.offset")

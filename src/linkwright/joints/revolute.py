@@ -29,9 +29,7 @@ class RevoluteJoint(TurningJoint):
 
     def dimensions(self) -> Mapping[str, float]:
         friction = {f"{self.name}.friction": self.friction} if self.friction else {}
-        return (
-            friction if self.pin_radius is None else {f"{self.name}.pin_radius": self.pin_radius, **friction}
-        )
+        return friction if self.pin_radius is None else {f"{self.name}.pin_radius": self.pin_radius, **friction}
 
     # the model file ---------------------------------------------------------------------------
     @classmethod

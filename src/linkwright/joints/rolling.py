@@ -44,9 +44,7 @@ class RollingPair(WheelPair):
                 nonzero=True,
                 doc=_("ratio of b's speed to a's on the carrier: negative external, positive internal"),
             ),
-            "mesh": Word(
-                ("external", "internal"), doc=_("default external; internal: the larger one is the ring")
-            ),
+            "mesh": Word(("external", "internal"), doc=_("default external; internal: the larger one is the ring")),
         }
 
     @classmethod
@@ -86,9 +84,7 @@ class RollingPair(WheelPair):
             )
             return
         if distance == 0.0:
-            problem = _(
-                "the centres {centres} lie in one place", code="joints.same_centre", centres=self.centres
-            )
+            problem = _("the centres {centres} lie in one place", code="joints.same_centre", centres=self.centres)
             entry.say("links", problem, _("put the centres at a distance"), "range")
             return
         misfit = self._misfit(distance)
@@ -122,9 +118,7 @@ class RollingPair(WheelPair):
             carrier=self.carrier,
             distance=length(distance),
             wanted=length(wanted),
-            mesh=_("internal", code="joints.internal")
-            if self.sense > 0
-            else _("external", code="joints.external"),
+            mesh=_("internal", code="joints.internal") if self.sense > 0 else _("external", code="joints.external"),
         )
 
     def misfit(self, mechanism: Model) -> Message | None:

@@ -234,9 +234,7 @@ def _one_size(entry: Entry, keys: tuple[str, ...]) -> bool:
     present = [key for key in keys if values.get(key) is not None]
     if not present:
         remedy = (_("give one of {keys}") if len(keys) > 1 else _("give {keys}")).format(keys=keys)
-        entry.say(
-            "", _("nothing says how large the wheels are", code="joints.no_size"), remedy, "missing-key"
-        )
+        entry.say("", _("nothing says how large the wheels are", code="joints.no_size"), remedy, "missing-key")
         return False
     if {"teeth", "radii"} <= set(present):
         (a, b), (c, d) = values["teeth"], values["radii"]
@@ -311,10 +309,7 @@ class _Centres:
                     code="joints.no_carrier",
                     wheels=self.wheels,
                 ),
-                _(
-                    "give one link (the frame, an arm) a point in the centre of each of {wheels}",
-                    wheels=self.wheels,
-                ),
+                _("give one link (the frame, an arm) a point in the centre of each of {wheels}", wheels=self.wheels),
             )
             return None
         ways.sort(key=lambda way: way[0] != "frame")

@@ -64,9 +64,7 @@ class Between:
         states, modes = self.assembly(before, positions)
         return self.motion.solver.evaluate(names, positions, states, modes, self.motion.design)
 
-    def assembly(
-        self, before: Indices, positions: Positions
-    ) -> tuple[dict[str, Floats], Mapping[str, Floats]]:
+    def assembly(self, before: Indices, positions: Positions) -> tuple[dict[str, Floats], Mapping[str, Floats]]:
         """States of the tracked groups, NaN out of reach, and signs of the groups that pass change points, of the
         drivers' positions a little after those ``before``."""
         return self._states(positions, before), self.motion.modes and self._modes(positions)
@@ -173,6 +171,4 @@ class Between:
         away = time - start
         if period is not None:
             away = away - period * np.round(away / period)
-        return motion.solver.tracker(motion.design).moved(
-            motion.tracked.coordinates[index], start, start + away
-        )
+        return motion.solver.tracker(motion.design).moved(motion.tracked.coordinates[index], start, start + away)

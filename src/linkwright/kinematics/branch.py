@@ -124,13 +124,8 @@ class Branch:
     @cached_property
     def _rows(self) -> tuple[Floats, ...]:
         """Of all steps: ends of places, drivers, and coordinates with two derivatives."""
-        ends = [
-            (np.array([each.x for each in side]), np.array([each.q for each in side])) for side in self._sides
-        ]
-        roots = [
-            np.array([[each.root.z, each.root.rate, each.root.second] for each in side])
-            for side in self._sides
-        ]
+        ends = [(np.array([each.x for each in side]), np.array([each.q for each in side])) for side in self._sides]
+        roots = [np.array([[each.root.z, each.root.rate, each.root.second] for each in side]) for side in self._sides]
         return (*ends[0], *ends[1], *roots)
 
     @property

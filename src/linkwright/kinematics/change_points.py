@@ -50,9 +50,7 @@ MANY = 3
 Way = Callable[[Floats], Positions]
 
 
-def crossings(
-    solver: MotionSolver, positions: Positions, tracked: TrackedBranch | None
-) -> list[ChangePointCrossing]:
+def crossings(solver: MotionSolver, positions: Positions, tracked: TrackedBranch | None) -> list[ChangePointCrossing]:
     """All places between solved positions where a group's modes or pins meet, or where it cannot pass."""
     if not positions.is_way:
         return []
@@ -106,8 +104,7 @@ def parts(solver: MotionSolver, positions: Positions) -> int:
         span = step * positions.steps
         ways = at_times(mechanism, positions.time[0] + span * np.linspace(0.0, 1.0, SAMPLES + 1))
     farthest = max(
-        pace * abs(step) / (1.0 if positions.rotary[name] else mechanism.size)
-        for name, pace in ways.paces.items()
+        pace * abs(step) / (1.0 if positions.rotary[name] else mechanism.size) for name, pace in ways.paces.items()
     )
     wanted = max(ceil(farthest / FINE - 1e-9), ceil(FEWEST / positions.steps))
     return min(wanted, max(MOST // positions.count, 1))
@@ -254,9 +251,7 @@ class _Search:
             return []
         names = tuple(row_name("fact", name, on="sine") for name in slides)
         size, found = self.base.mechanism.size, []
-        for (group, displacements), name, row in zip(
-            slides.items(), names, self._evaluate(names), strict=True
-        ):
+        for (group, displacements), name, row in zip(slides.items(), names, self._evaluate(names), strict=True):
             for place in self._crossings(name, row):
                 around = self._evaluate(displacements, np.array([place - 1e-6, place + 1e-6]))
                 if not (np.abs(np.diff(around)) < size).all():
@@ -284,9 +279,7 @@ class _Search:
         """The place between two where a value changes its sign."""
         start = np.array([low])
         first = np.sign(self._evaluate((name,), start)[0])
-        before = ends(
-            lambda place: np.sign(self._evaluate((name,), place)[0]) == first, start, np.array([high])
-        )
+        before = ends(lambda place: np.sign(self._evaluate((name,), place)[0]) == first, start, np.array([high]))
         return float(before[0])
 
     def _flips(self, p: ChangePointCrossing, blocked: Flags) -> tuple[float, float]:
@@ -347,9 +340,7 @@ class _Search:
         low, high = np.array(stretches).T
 
         def values(places: Floats) -> Floats:
-            return np.asarray(
-                factor[:, None] * self._evaluate((name,), places.ravel())[0].reshape(places.shape)
-            )
+            return np.asarray(factor[:, None] * self._evaluate((name,), places.ravel())[0].reshape(places.shape))
 
         return list(zip(*(row.tolist() for row in lowest(values, low, high)), strict=True))
 
@@ -369,9 +360,7 @@ class _Search:
         if self.positions.closed and place <= 0.0:
             place += n
         before = min(max(int(np.ceil(place)) - 1, 0), n - 1)
-        return ChangePointCrossing(
-            group, before, (before + 1) % n, place - before, quality, kind, self._input(place)
-        )
+        return ChangePointCrossing(group, before, (before + 1) % n, place - before, quality, kind, self._input(place))
 
     def _input(self, place: float) -> float:
         """The first driver's coordinate at a place."""

@@ -42,9 +42,7 @@ def jacobian(
             tip = poses[end].place
             for step, turn in _turning(group, end):
                 pivot = poses[step.child].place
-                shift = (
-                    (tip - pivot).perp if step.turns else pair_of(step, dimensions).normal(poses[step.parent])
-                )
+                shift = (tip - pivot).perp if step.turns else pair_of(step, dimensions).normal(poses[step.parent])
                 k = steps.index(step)
                 for row, (x, y, about) in zip(rows, parts, strict=True):
                     row[k] = row[k] + (x * shift.x + y * shift.y + about * turn)

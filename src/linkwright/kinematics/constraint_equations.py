@@ -223,9 +223,7 @@ class _Traced:
 
 def first_points(mechanism: Mechanism) -> dict[str, str]:
     """The first point of every link."""
-    return {
-        name: canonical(mechanism, name, next(iter(link.points))) for name, link in mechanism.links.items()
-    }
+    return {name: canonical(mechanism, name, next(iter(link.points))) for name, link in mechanism.links.items()}
 
 
 def pose_outputs(mechanism: Mechanism) -> tuple[str, ...]:

@@ -85,11 +85,7 @@ class BranchTracker:
 
     def _as_drawn(self, group: Group, step: TreeJoint) -> float:
         """The coordinate of a chain's joint in the drawing."""
-        drawn, drawing, name = (
-            self.assembly.states,
-            self.assembly.drawing,
-            state_name(step),
-        )
+        drawn, drawing, name = (self.assembly.states, self.assembly.drawing, state_name(step))
         if f"{name}.x" in drawn:
             return math.atan2(drawn[f"{name}.y"], drawn[f"{name}.x"])
         for state in (f"{name}.angle", f"{name}.s"):
@@ -125,9 +121,7 @@ class BranchTracker:
         if root is None:
             return (near, q) if np.abs(search.at(*found)[0]).max(initial=0.0) < SINGULAR else None
         gone = self.nearest_way(np.array(root.z) - near) / groups.scale
-        return (
-            (np.array(root.z), q) if (np.abs(gone) < SAME)[~np.array(groups.formula.solved)].all() else None
-        )
+        return (np.array(root.z), q) if (np.abs(gone) < SAME)[~np.array(groups.formula.solved)].all() else None
 
     # ways ---------------------------------------------------------------------------------------
     def between(self, begin: Floats, end: Floats, start: Floats) -> Branch:

@@ -55,9 +55,7 @@ class Dimensions:
         waiting, needed = [address], set[str]()
         while waiting:
             for name in expressions[waiting.pop()].names:
-                if self._follows(name) and not (
-                    name in self.free or name in needed or name in self._parameters
-                ):
+                if self._follows(name) and not (name in self.free or name in needed or name in self._parameters):
                     needed.add(name)
                     waiting.append(name)
         parameters = filter(needed.__contains__, self.mechanism.parameters if needed else ())

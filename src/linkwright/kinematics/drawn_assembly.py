@@ -60,9 +60,7 @@ class DrawnAssembly:
         trace, found = motion.trace, list[dict[Value, Scalar]]()
         for k in range(len(self.steps)):
             own = {kind: trace.field_input(name) for name, (at, kind) in states.items() if at == k}
-            found.append(
-                {own["cos"]: -own["sin"], own["sin"]: own["cos"]} if "cos" in own else {own[""]: 1.0}
-            )
+            found.append({own["cos"]: -own["sin"], own["sin"]: own["cos"]} if "cos" in own else {own[""]: 1.0})
         for name, rotary in zip(motion.drivers, self.groups.formula.rotary, strict=True):
             kinds: tuple[Kind, ...] = ("cos", "sin", "turn", "slide")
             cosine, sine, turn, slide = (trace.position(Input(kind, name).name) for kind in kinds)
@@ -112,10 +110,7 @@ class DrawnAssembly:
             penalty = max(penalty, 2.0 * float(np.abs(solved[count:]).max(initial=0.0)))
             falls, here = float(off @ shown @ step) - penalty * float(np.abs(gap).sum()), worth(z, q)
             share = min(1.0, LARGEST / size)
-            while (
-                share > SMALLEST
-                and not worth(*self.moved(z, q, share * step)) <= here + DESCENT * share * falls
-            ):
+            while share > SMALLEST and not worth(*self.moved(z, q, share * step)) <= here + DESCENT * share * falls:
                 share *= 0.5
             z, q = self.moved(z, q, share * step)
         return None

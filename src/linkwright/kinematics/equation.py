@@ -144,25 +144,16 @@ class Rows:
 
     def wrenches(self, multipliers: Sequence[Scalar], poses: Poses) -> dict[str, Wrench]:
         """What multipliers of the rows exert on both links of the pair: λ ∂r/∂(x, y, θ)."""
-        return {
-            end: _wrench(self._parts(end, poses), multipliers)
-            for end in (self.joint_ends.a, self.joint_ends.b)
-        }
+        return {end: _wrench(self._parts(end, poses), multipliers) for end in (self.joint_ends.a, self.joint_ends.b)}
 
     def drift(self, states: States) -> list[Scalar]:
         """First derivative of the equations in time."""
-        real, rates = (
-            self._real(_Poses(states)),
-            in_time(self.joint_ends, lambda moving: moving.rates(states)),
-        )
+        real, rates = (self._real(_Poses(states)), in_time(self.joint_ends, lambda moving: moving.rates(states)))
         return [_along(row.shared, rates, real) for row in self._rows]
 
     def bend(self, states: States) -> list[Scalar]:
         """Second derivative of the equations in time."""
-        real, rates = (
-            self._real(_Poses(states)),
-            in_time(self.joint_ends, lambda moving: moving.rates(states)),
-        )
+        real, rates = (self._real(_Poses(states)), in_time(self.joint_ends, lambda moving: moving.rates(states)))
         seconds = in_time(self.joint_ends, lambda moving: moving.seconds(states))
         return [_twice(row, rates, seconds, real) for row in self._rows]
 

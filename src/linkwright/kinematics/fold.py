@@ -79,9 +79,7 @@ class _Fold:
         return np.concatenate([self.system.residual(x), held])
 
     def _jacobian(self, x: Floats) -> Floats:
-        return self.system.matrix(
-            [*self.system.rows(x), *(self.system.driver_row(n, x) for n in self.drivers)]
-        )
+        return self.system.matrix([*self.system.rows(x), *(self.system.driver_row(n, x) for n in self.drivers)])
 
     def _held_jacobian(self, x: Floats) -> Floats:
         rows = [*self.system.rows(x), *(self.system.driver_row(name, x) for name in self.held)]

@@ -80,11 +80,7 @@ def _gained(
 
 
 def _change(
-    mechanism: Mechanism,
-    unknowns: list[Key],
-    rotations: list[Floats],
-    slides: list[Floats],
-    duration: float,
+    mechanism: Mechanism, unknowns: list[Key], rotations: list[Floats], slides: list[Floats], duration: float
 ) -> Floats | None:
     """What unknowns and drivers gain; not of unknowns on which no wheels hang."""
     ends = [driver.law.coordinate(np.array([0.0, duration]))[0] for driver in mechanism.drivers.values()]
@@ -110,11 +106,7 @@ def _change(
 
 
 def _by_places(
-    solver: MotionSolver,
-    unknowns: list[Key],
-    wanted: Indices,
-    gained: Floats,
-    duration: float,
+    solver: MotionSolver, unknowns: list[Key], wanted: Indices, gained: Floats, duration: float
 ) -> Floats | None:
     """The same from the places of slides at both times, where rotations cannot be tracked; None for rotations."""
     names = [unknowns[i][1] for i in wanted if unknowns[i][0] == "slide"]

@@ -277,9 +277,7 @@ def closed_form(group: Group) -> bool:
 def iterated(structure: Structure) -> tuple[Group, ...]:
     """The groups that have no closed form."""
     return _iterated.get(
-        structure,
-        None,
-        lambda: tuple(each for each in structure.groups if each.unknowns and not closed_form(each)),
+        structure, None, lambda: tuple(each for each in structure.groups if each.unknowns and not closed_form(each))
     )
 
 

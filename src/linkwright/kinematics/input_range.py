@@ -46,11 +46,7 @@ CHANGED, TOUCHED = 1e-8, 10.0
 AHEAD = 1e-5
 
 
-_WAYS = {
-    "low": _("from {low}"),
-    "high": _("to {high}"),
-    "low_high": pgettext("range", "from {low} to {high}"),
-}
+_WAYS = {"low": _("from {low}"), "high": _("to {high}"), "low_high": pgettext("range", "from {low} to {high}")}
 
 
 @dataclass(frozen=True)
@@ -98,11 +94,7 @@ class InputRange:
     def explain(self) -> str:
         """The range in a sentence."""
         if self.full:
-            full = (
-                _("the {link} can turn fully")
-                if self.rotary
-                else _("the {link} can slide without finding an end")
-            )
+            full = _("the {link} can turn fully") if self.rotary else _("the {link} can slide without finding an end")
             return full.format(link=self.link)
         ends = {
             side: shown(end.value, "angle" if self.rotary else "length", 7)
@@ -110,9 +102,7 @@ class InputRange:
             if end is not None
         }
         way = _WAYS["_".join(ends)].format(**ends)
-        moves = (
-            _("the {link} can turn {way}; {ends}") if self.rotary else _("the {link} can slide {way}; {ends}")
-        )
+        moves = _("the {link} can turn {way}; {ends}") if self.rotary else _("the {link} can slide {way}; {ends}")
         return moves.format(link=self.link, way=way, ends=self._ends())
 
     def _ends(self) -> str | tuple[str, ...]:
@@ -170,9 +160,7 @@ def range_sentence(mechanism: Mechanism, links: Sequence[str] = ()) -> str:
         groups = [end.group for end in (found.low, found.high) if end is not None]
         if any(isinstance(each, Message) and each.values.get("links") == tuple(links) for each in groups):
             return _(
-                "with the other drivers at their start {reason}",
-                code="range.others_still",
-                reason=found.explain(),
+                "with the other drivers at their start {reason}", code="range.others_still", reason=found.explain()
             )
     return ""
 
@@ -283,9 +271,7 @@ class _Search:
         elif stop.group:
             value, precision = good, 2.0 * FLOOR * unit
         else:
-            good, bad = self._narrowed(
-                replace(stop, good=good, bad=bad, unknowns=self._unknowns(stop, good)), 0.0
-            )
+            good, bad = self._narrowed(replace(stop, good=good, bad=bad, unknowns=self._unknowns(stop, good)), 0.0)
             rounding = ROUNDED if stop.unknowns is None else CONTINUED
             value, precision = good, abs(bad - good) + rounding * (1.0 + abs(good))
         return _range_end(value, group, how, precision)
@@ -302,9 +288,7 @@ class _Search:
         fine = self._fine(stop, places)
         if not fine.all():
             return replace(stop, bad=float(places[np.argmin(fine)]))
-        beyond = reached + math.copysign(
-            2.0 * FLOOR * (1.0 if self.rotary else self.size), stop.bad - stop.good
-        )
+        beyond = reached + math.copysign(2.0 * FLOOR * (1.0 if self.rotary else self.size), stop.bad - stop.good)
         group = self.solver.tracker().weakest_group(branch)
         return replace(stop, good=reached, bad=beyond, unknowns=branch.last, group=group)
 
@@ -422,9 +406,7 @@ class _Search:
         if explain_end is None:
             return groups[stuck], _("is singular", code="range.singular")
         facts = tuple(placed[stuck].facts)
-        row = solver.evaluate(tuple(row_name("fact", stuck, on=fact) for fact in facts), ends, states, modes)[
-            :, 0
-        ]
+        row = solver.evaluate(tuple(row_name("fact", stuck, on=fact) for fact in facts), ends, states, modes)[:, 0]
         return groups[stuck], explain_end(dict(zip(facts, map(float, row), strict=True)))
 
 

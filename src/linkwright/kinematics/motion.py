@@ -226,11 +226,7 @@ class Motion(PlotMixin):
         """Coordinate of the first driver, (n,) rad or m."""
         if not self.inputs:
             raise RequestError(
-                _(
-                    "{name!r} has no driver, so it has no input",
-                    code="motion.no_input",
-                    name=self.mechanism.name,
-                )
+                _("{name!r} has no driver, so it has no input", code="motion.no_input", name=self.mechanism.name)
             )
         return next(iter(self.inputs.values()))
 

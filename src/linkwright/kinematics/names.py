@@ -24,9 +24,7 @@ PHRASES = {
 #: Products of an output with the cosine and sine of a multiple of the input, and the multiples.
 HARMONIC, ORDERS = ("cosine", "sine"), tuple(str(order) for order in range(1, 13))
 #: Kinds by what they belong to and the word behind it.
-_PARTS = {
-    (kind.of, kind.word or name): name for name, kind in KINDS.items() if kind.form in ("part", "place")
-}
+_PARTS = {(kind.of, kind.word or name): name for name, kind in KINDS.items() if kind.form in ("part", "place")}
 
 
 def owners(mechanism: Mechanism, point: str) -> list[str]:
@@ -119,9 +117,7 @@ def place_meant(mechanism: Mechanism, text: str) -> Output:
             )
         )
     if meant is None or found is None:
-        points = [
-            f"{point}.{axis}" for link in mechanism.links.values() for point in link.points for axis in "xy"
-        ]
+        points = [f"{point}.{axis}" for link in mechanism.links.values() for point in link.points for axis in "xy"]
         known = [*mechanism.links, *mechanism.guides, *points]
         if meant is None:
             no_output(mechanism, text, known)

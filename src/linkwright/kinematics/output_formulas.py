@@ -80,9 +80,7 @@ def _place(name: str, order: int) -> str:
 def _formula(mechanism: Mechanism, named: NamedOutput) -> NumpyProgram:
     """The program of a formula and its rates, of what moves in it and of the parameters; and the smallest of what it
     divides by, as a share of the larger of its terms."""
-    return _formulas.get(
-        None, (named, tuple(mechanism.parameters)), lambda: NumpyProgram(_traced(mechanism, named))
-    )
+    return _formulas.get(None, (named, tuple(mechanism.parameters)), lambda: NumpyProgram(_traced(mechanism, named)))
 
 
 def _traced(mechanism: Mechanism, named: NamedOutput) -> Program:
@@ -116,9 +114,7 @@ def traced_course(
     """Value and rates of a named output as traced values; ``value``: that of an output, of the input for None, and
     of its rates by their order."""
     count, names = len(named.outputs), formula_names(motion.mechanism, named)
-    inputs = {
-        _place(name, order): value(each, order) for name, each in names.items() for order in range(count)
-    }
+    inputs = {_place(name, order): value(each, order) for name, each in names.items() for order in range(count)}
     own = [name for name in named.expression.names if name in motion.mechanism.parameters]
     inputs |= {name: motion.dimensions(name) for name in own}
     found = inlined(_formula(motion.mechanism, named).program, motion.trace, inputs)

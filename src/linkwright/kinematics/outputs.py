@@ -68,11 +68,7 @@ class MotionOutputs:
         if "frame" in links:
             return "frame"
         for name in links:
-            if (
-                self.motion.states
-                and self.motion.states.get(name)
-                and self.motion.states[name].velocity == ZERO
-            ):
+            if self.motion.states and self.motion.states.get(name) and self.motion.states[name].velocity == ZERO:
                 return name
         order = list(self.motion.states)
         return min(links, key=order.index) if set(links) <= set(order) else link

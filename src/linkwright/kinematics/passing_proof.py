@@ -37,10 +37,7 @@ def modal(motion: MotionTrace) -> list[str]:
 def measures(motion: MotionTrace, group: str) -> list[str]:
     """Outputs that come near to zero where the modes or the outer pins of a group meet."""
     facts = motion.placed[group].facts
-    return [
-        row_name("quality", group),
-        *([row_name("fact", group, on="distance²")] if "distance²" in facts else []),
-    ]
+    return [row_name("quality", group), *([row_name("fact", group, on="distance²")] if "distance²" in facts else [])]
 
 
 def clear_of_zero(
@@ -66,9 +63,7 @@ def clear_of_zero(
 def nothing_passed(names: Sequence[str], rows: Sequence[Sequence[float]]) -> bool:
     """The same of outputs (names, n) as plain numbers."""
     sound = [isfinite(sum(row)) for row in rows]
-    lows, highs = (
-        [end(row) if good else nan for row, good in zip(rows, sound, strict=True)] for end in (min, max)
-    )
+    lows, highs = ([end(row) if good else nan for row, good in zip(rows, sound, strict=True)] for end in (min, max))
 
     def leap(k: int) -> float:
         return max(abs(b - a) for a, b in zip(rows[k], [*rows[k][1:], rows[k][0]], strict=True))
@@ -115,10 +110,7 @@ def _reverses(rows: Sequence[Sequence[float]], size: float) -> bool:
     else:
         ways = [b - a for a, b in zip(rows[0], ahead[0], strict=True)]
     minimum_travel = REVERSED * (max(ways) - min(ways))
-    return (
-        min(ways) < -minimum_travel < 0.0 < minimum_travel < max(ways)
-        and max(ways) - min(ways) > REVERSED * size
-    )
+    return min(ways) < -minimum_travel < 0.0 < minimum_travel < max(ways) and max(ways) - min(ways) > REVERSED * size
 
 
 def _turned(

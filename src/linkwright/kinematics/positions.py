@@ -24,10 +24,7 @@ from linkwright.units import LARGEST, NOUNS, SI_UNITS
 from linkwright.words import Message, _
 
 #: Dimensions of a coordinate and its rates, by whether the driver turns.
-_RATES = {
-    True: ("angle", "angular_velocity", "angular_acceleration"),
-    False: ("length", "velocity", "acceleration"),
-}
+_RATES = {True: ("angle", "angular_velocity", "angular_acceleration"), False: ("length", "velocity", "acceleration")}
 
 #: Positions between which a driver turns further than this are no path, but separate positions, rad.
 LARGEST_STEP = 0.55
@@ -76,9 +73,7 @@ class Positions:
         """Whether the positions are a cycle, or follow each other closely enough to be one motion."""
         if self.cycle or self.count < 3:
             return self.cycle
-        steps = (
-            np.abs(np.diff(q)).max() for name, (q, *_unused) in self.coordinates.items() if self.rotary[name]
-        )
+        steps = (np.abs(np.diff(q)).max() for name, (q, *_unused) in self.coordinates.items() if self.rotary[name])
         return self.closed or bool(max(steps, default=0.0) <= LARGEST_STEP)
 
     @property
@@ -89,9 +84,7 @@ class Positions:
     @cached_property
     def paces(self) -> dict[str, float]:
         """The largest rate of every driver, rad/s or m/s."""
-        return {
-            name: float(np.abs(rate).max()) for name, (_unused, rate, _unused2) in self.coordinates.items()
-        }
+        return {name: float(np.abs(rate).max()) for name, (_unused, rate, _unused2) in self.coordinates.items()}
 
     @property
     def turns(self) -> float:
@@ -108,8 +101,7 @@ class Positions:
     def taken(self, order: Indices) -> Positions:
         """Some of the positions in another order, each for itself."""
         coordinates = {
-            name: (q[order], rate[order], second[order])
-            for name, (q, rate, second) in self.coordinates.items()
+            name: (q[order], rate[order], second[order]) for name, (q, rate, second) in self.coordinates.items()
         }
         return Positions(self.time[order], coordinates, self.rotary)
 
@@ -136,11 +128,7 @@ def _numbers(values: ArrayLike) -> Floats:
     try:
         found = np.atleast_1d(np.asarray(values, dtype=float))
     except (TypeError, ValueError):
-        texts = (
-            [values]
-            if isinstance(values, str)
-            else [each for each in np.ravel(values) if isinstance(each, str)]
-        )
+        texts = [values] if isinstance(values, str) else [each for each in np.ravel(values) if isinstance(each, str)]
         if texts:
             raise CycleError(
                 _(
@@ -152,8 +140,7 @@ def _numbers(values: ArrayLike) -> Floats:
             ) from None
         raise CycleError(
             _(
-                "invalid input or time {values}; give numbers in SI units (rad, m, s), such as 0.5 "
-                "or [0.0, 0.5]",
+                "invalid input or time {values}; give numbers in SI units (rad, m, s), such as 0.5 or [0.0, 0.5]",
                 code="motion.no_numbers",
                 values=repr(values)[:60],
             )
@@ -161,8 +148,7 @@ def _numbers(values: ArrayLike) -> Floats:
     if found.ndim > 1:
         raise CycleError(
             _(
-                "inputs and times stand in one row, not in an array of the shape {shape}; give a "
-                "number per position",
+                "inputs and times stand in one row, not in an array of the shape {shape}; give a number per position",
                 code="motion.no_row",
                 shape=str(found.shape),
             )
@@ -252,8 +238,7 @@ def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> 
         if driver.law.constant_speed is None:
             raise CycleError(
                 _(
-                    "driver {name!r} follows its own law in time; ask for positions by times instead of "
-                    "inputs",
+                    "driver {name!r} follows its own law in time; ask for positions by times instead of inputs",
                     code="motion.own_law",
                     name=name,
                 )
@@ -274,10 +259,7 @@ def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> 
 
 
 def rotary(mechanism: Mechanism) -> dict[str, bool]:
-    return {
-        name: mechanism.joints[driver.joint].coordinate == "turn"
-        for name, driver in mechanism.drivers.items()
-    }
+    return {name: mechanism.joints[driver.joint].coordinate == "turn" for name, driver in mechanism.drivers.items()}
 
 
 def coordinate_text(name: str, value: float, rotary: bool) -> Message:

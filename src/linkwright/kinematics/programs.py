@@ -81,11 +81,7 @@ class MotionPrograms:
         """Every link's state as traced values."""
         manner = self.manner
         return trace_motion(
-            self.mechanism,
-            self.structure,
-            free=manner.free,
-            modes_vary=manner.flipping,
-            iterations=manner.iterations,
+            self.mechanism, self.structure, free=manner.free, modes_vary=manner.flipping, iterations=manner.iterations
         )
 
     @locked_property

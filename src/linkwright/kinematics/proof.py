@@ -71,18 +71,13 @@ class Proof:
         """The proof in a sentence."""
         count, total = int(self.proved.sum()), len(self.proved)
         first = int(np.argmin([*self.proved, False])) + 1
-        values = {
-            "count": count,
-            "total": total,
-            "first": first,
-            "margin": f"{self.margin.min(initial=1.0):.2g}",
-        }
+        values = {"count": count, "total": total, "first": first, "margin": f"{self.margin.min(initial=1.0):.2g}"}
         sentence = (
             _("the assembly is proved not to change in all {total} steps (smallest margin {margin})")
             if count == total
             else _(
                 "the assembly is proved not to change in {count} of {total} steps; the first one "
-                "without proof is step {first}",
+                "without proof is step {first}"
             )
         )
         return sentence.format(**values).translate(language)
@@ -210,11 +205,7 @@ class _Loops:
     def _matrices(self) -> None:
         keys = [*self.unknowns, *(("drive", name) for name in self.mechanism.drivers)]
         self.n, C, S, K = len(self.unknowns), len(self.rotations), len(self.slides), len(self.loops)
-        self.C, self.K, self.owner = (
-            C,
-            K,
-            np.array([rotation for _unused, rotation in self.slides], dtype=int),
-        )
+        self.C, self.K, self.owner = (C, K, np.array([rotation for _unused, rotation in self.slides], dtype=int))
         rows, rests = np.zeros((C + S, len(keys))), np.zeros(C + S)
         for k, terms in enumerate([*self.rotations, *({key: 1.0} for key, _unused in self.slides)]):
             found, rests[k] = self.sums.reduced(terms)
@@ -315,10 +306,7 @@ def _walked(loops: _Loops, begin: Floats, end: Floats) -> float:
             x, y, smallest = (1.0 if h >= 1.0 - x else x + h), ahead, min(smallest, margin)
         elif h * pace < FLOOR:
             return 0.0
-        share, bounds = (
-            0.8 * np.sqrt(WANTED / max(contraction, 1e-9)),
-            (0.3, 2.0) if margin > 0.0 else (0.1, 0.5),
-        )
+        share, bounds = (0.8 * np.sqrt(WANTED / max(contraction, 1e-9)), (0.3, 2.0) if margin > 0.0 else (0.1, 0.5))
         h *= float(np.clip(share, *bounds))
     return 0.0
 

@@ -15,11 +15,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import length_text
-from linkwright.kinematics.constraint_equations import (
-    ConstraintEquations,
-    Row,
-    drawn_coordinates,
-)
+from linkwright.kinematics.constraint_equations import ConstraintEquations, Row, drawn_coordinates
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.topology.mobility import counts, grubler
 from linkwright.words import Message, _
@@ -93,9 +89,7 @@ def rank_from_dimensions(mechanism: Mechanism) -> RankReport | None:
     return _rank_where_closed(mechanism, system, here, "_assembled")
 
 
-def _rank_where_closed(
-    mechanism: Mechanism, system: ConstraintEquations, here: Floats, where: str
-) -> RankReport:
+def _rank_where_closed(mechanism: Mechanism, system: ConstraintEquations, here: Floats, where: str) -> RankReport:
     rank, redundant = rank_at(system, here, ZERO_DRAWN)
     special = rank < system.freedoms and not _moves(system, here, rank)
     links = () if special else _spare_links(mechanism, here, ZERO_DRAWN)
@@ -256,24 +250,17 @@ _CONFIRMED = {
     ),
 }
 _DIFFERS = {
-    "": _(
-        "Grübler gives {count}, but the rank of the Jacobian gives {mobility}: {reason}", code="rank.differs"
-    ),
+    "": _("Grübler gives {count}, but the rank of the Jacobian gives {mobility}: {reason}", code="rank.differs"),
     "_drawn": _(
         "Grübler gives {count}, but the rank of the Jacobian in the drawing gives {mobility}: {reason}",
         code="rank.differs_drawn",
     ),
     "_assembled": _(
-        "Grübler gives {count}, but the rank of the Jacobian where the joints close gives "
-        "{mobility}: {reason}",
+        "Grübler gives {count}, but the rank of the Jacobian where the joints close gives {mobility}: {reason}",
         code="rank.differs_assembled",
     ),
 }
-_HELD = {
-    "place": _("place at {joint}"),
-    "rotation": _("rotation at {joint}"),
-    "rolling": _("rolling at {joint}"),
-}
+_HELD = {"place": _("place at {joint}"), "rotation": _("rotation at {joint}"), "rolling": _("rolling at {joint}")}
 
 
 def report_of(
@@ -296,14 +283,10 @@ def report_of(
     wheels = bool(guides) and all(mechanism.joints[name].higher for name in guides)
     if joints:
         reason = (
-            _(
-                "the joints {joints} demand only what others demand already in this special "
-                "geometry; remove them",
-            )
+            _("the joints {joints} demand only what others demand already in this special geometry; remove them")
             if len(joints) > 1
             else _(
-                "the joint {joints} demands only what others demand already in this special "
-                "geometry; remove it",
+                "the joint {joints} demands only what others demand already in this special geometry; remove it",
                 code="rank.joint",
             )
         ).format(joints=_named(joints))
@@ -313,11 +296,7 @@ def report_of(
 
 
 def _reason(
-    redundant: tuple[str, ...],
-    links: tuple[str, ...],
-    special: bool,
-    guides: tuple[str, ...],
-    wheels: bool,
+    redundant: tuple[str, ...], links: tuple[str, ...], special: bool, guides: tuple[str, ...], wheels: bool
 ) -> Message:
     if special:
         return _(
@@ -339,9 +318,7 @@ def _reason(
         )
     if guides:
         return (
-            _(
-                "the guides {guides} close a loop in which rotation is already prevented ({redundant})",
-            )
+            _("the guides {guides} close a loop in which rotation is already prevented ({redundant})")
             if len(guides) > 1
             else _(
                 "the guide {guides} closes a loop in which rotation is already prevented ({redundant})",
@@ -373,6 +350,4 @@ def _gaping(
         count=count,
         gap=length_text(gap * system.size, 3),
     )
-    return RankReport(
-        rank, system.freedoms, system.freedoms - count, count, _messages(implied), (), False, message
-    )
+    return RankReport(rank, system.freedoms, system.freedoms - count, count, _messages(implied), (), False, message)

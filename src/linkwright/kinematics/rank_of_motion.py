@@ -96,9 +96,7 @@ def _rank_of_groups(mechanism: Mechanism, built: Structure, x: Floats) -> int | 
     for group, own in zip(built.groups, of_group, strict=True):
         if len(own) != 3 * len(group.links):
             return None
-        matrix = [
-            [entry for link in group.links for entry in row.parts.get(link, (0.0, 0.0, 0.0))] for row in own
-        ]
+        matrix = [[entry for link in group.links for entry in row.parts.get(link, (0.0, 0.0, 0.0))] for row in own]
         if numeric_rank(np.array(matrix, dtype=float), ZERO) < len(own):
             return None
     return len(rows) - len(mechanism.drivers)

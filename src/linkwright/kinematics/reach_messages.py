@@ -48,12 +48,9 @@ def explain(motion: Motion) -> list[Outcome]:
 
 
 _PASSAGES = {
-    "change": _(
-        "change point of group ({links}) at {where}: the motion goes on smoothly", code="cycle.change"
-    ),
+    "change": _("change point of group ({links}) at {where}: the motion goes on smoothly", code="cycle.change"),
     "meeting": _(
-        "the outer pins of group ({links}) meet at {where}, where it could turn freely: the "
-        "motion goes on smoothly",
+        "the outer pins of group ({links}) meet at {where}, where it could turn freely: the motion goes on smoothly",
         code="cycle.meeting",
     ),
     "end": _(
@@ -62,8 +59,7 @@ _PASSAGES = {
         code="cycle.end",
     ),
     "pole": _(
-        "the guides of group ({links}) become parallel at {where}: the mechanism cannot pass there",
-        code="cycle.pole",
+        "the guides of group ({links}) become parallel at {where}: the mechanism cannot pass there", code="cycle.pole"
     ),
     "gap": _(
         "group ({links}) cannot be assembled in a short stretch at {where}, between two "
@@ -78,8 +74,7 @@ _OUTCOMES = {
         code="outcome.lost",
     ),
     "stopped": _(
-        "group {signature} ({links}) cannot be tracked to this position: on the way it "
-        "becomes singular at {where}",
+        "group {signature} ({links}) cannot be tracked to this position: on the way it becomes singular at {where}",
         code="outcome.stopped",
     ),
     "singular": _(
@@ -172,8 +167,7 @@ def passage_notes(passing: Sequence[ChangePointCrossing], positions: Positions) 
     if positions.closed and not closes(passing):
         messages.append(
             _(
-                "after one cycle the mechanism is in its other assembly mode: the motion repeats "
-                "after two cycles",
+                "after one cycle the mechanism is in its other assembly mode: the motion repeats after two cycles",
                 code="cycle.two_cycles",
             )
         )
@@ -197,9 +191,7 @@ class _Facts:
             for group in self.groups
             for fact in motion.solver.motion.placed[group.name].facts
         ]
-        values = motion.solver.evaluate(
-            tuple(names), motion.positions, motion.states, motion.modes, motion.design
-        )
+        values = motion.solver.evaluate(tuple(names), motion.positions, motion.states, motion.modes, motion.design)
         self.values = {name: row[failed] for name, row in zip(names, values, strict=True)}
 
     def outcome(self, place: int, index: int) -> Outcome:
@@ -223,9 +215,7 @@ class _Facts:
         placed = self.motion.solver.motion.placed[group.name]
         if placed.dyad is None:
             return self._lost(group, index)
-        facts = {
-            name: float(self.values[row_name("fact", group.name, on=name)][place]) for name in placed.facts
-        }
+        facts = {name: float(self.values[row_name("fact", group.name, on=name)][place]) for name in placed.facts}
         if code < 0:
             together = facts.get("distance²", math.inf) < (AT_ONE_PLACE * self.motion.mechanism.size) ** 2
             message = _of("coinciding" if together else "singular", group)
@@ -266,11 +256,6 @@ def _of(key: str, group: Group, **values: object) -> Message:
 def input_at(motion: Motion, index: int) -> str:
     """The drivers' coordinates at a position, in words."""
     parts = [
-        coordinate_text(name, float(q[index]), motion.positions.rotary[name])
-        for name, q in motion.inputs.items()
+        coordinate_text(name, float(q[index]), motion.positions.rotary[name]) for name, q in motion.inputs.items()
     ]
-    return (
-        _("input {parts}", parts=tuple(parts))
-        if parts
-        else _("its only position", code="motion.only_position")
-    )
+    return _("input {parts}", parts=tuple(parts)) if parts else _("its only position", code="motion.only_position")

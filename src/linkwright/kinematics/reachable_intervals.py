@@ -186,7 +186,5 @@ class Reach:
             share = share % (period / (known[1] - known[0]))
         if np.ptp(np.diff(known)) > 1e-9 * abs(known[1] - known[0]):
             order = np.argsort(known)
-            return np.asarray(
-                order[np.clip(np.searchsorted(known[order], time, "right") - 1, 0, len(known) - 1)]
-            )
+            return np.asarray(order[np.clip(np.searchsorted(known[order], time, "right") - 1, 0, len(known) - 1)])
         return np.asarray(np.clip(np.floor(share + 1e-9).astype(np.intp), 0, len(known) - 1))

@@ -42,25 +42,12 @@ def refusal(motion: Motion) -> PositionError:
     outcome = motion.outcomes[first]
     where = input_at(motion, first)
     if len(failed) > 1:
-        where = _(
-            "{where} ({failed} of {steps} positions fail)",
-            where=where,
-            failed=len(failed),
-            steps=motion.steps,
-        )
+        where = _("{where} ({failed} of {steps} positions fail)", where=where, failed=len(failed), steps=motion.steps)
     links = next((each.links for each in motion.structure.groups if each.name == outcome.group), ())
-    reasons = (
-        list(motion.notes) if outcome.kind == "barred" else range_sentence(motion.mechanism, tuple(links))
-    )
+    reasons = list(motion.notes) if outcome.kind == "barred" else range_sentence(motion.mechanism, tuple(links))
     message = (
         _("{name!r} cannot be solved at {where}: {sentence}; {reasons}; {advice}", code="motion.refused_told")
         if reasons
         else _("{name!r} cannot be solved at {where}: {sentence}; {advice}", code="motion.refused")
-    ).format(
-        name=motion.mechanism.name,
-        where=where,
-        sentence=outcome,
-        reasons=reasons,
-        advice=_CHANGE,
-    )
+    ).format(name=motion.mechanism.name, where=where, sentence=outcome, reasons=reasons, advice=_CHANGE)
     return PositionError(message, tuple(int(i) for i in failed), outcome)

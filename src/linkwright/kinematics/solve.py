@@ -13,13 +13,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.inputs import mode_groups
 from linkwright.errors import RequestError
 from linkwright.kinematics.change_point_crossing import ChangePointCrossing
-from linkwright.kinematics.change_points import (
-    crossings,
-    cut_off,
-    mark_singular,
-    outputs_at_crossings,
-    signs,
-)
+from linkwright.kinematics.change_points import crossings, cut_off, mark_singular, outputs_at_crossings, signs
 from linkwright.kinematics.cycle import over_cycle, time_span
 from linkwright.kinematics.design import Design
 from linkwright.kinematics.motion import Motion, Rows
@@ -77,10 +71,7 @@ def _positions(
 ) -> Positions:
     if at is not None and times is not None:
         raise RequestError(
-            _(
-                "positions are given by inputs (at) and by times; give one of the two",
-                code="motion.at_and_times",
-            )
+            _("positions are given by inputs (at) and by times; give one of the two", code="motion.at_and_times")
         )
     if at is not None:
         positions = at_inputs(mechanism, at)
@@ -116,9 +107,7 @@ def with_times(motion: Motion, times: Iterable[float]) -> tuple[Motion, list[int
     if len(own) > 1 and own[-1] < own[0]:
         every = every[::-1]
     positions = at_times(motion.mechanism, every, motion.positions.period)
-    found = MotionRun(MotionSolver(motion.mechanism), positions, single=not motion.positions.is_way).solve(
-        "mark"
-    )
+    found = MotionRun(MotionSolver(motion.mechanism), positions, single=not motion.positions.is_way).solve("mark")
     return found, [int(np.argmin(np.abs(every - each))) for each in wanted]
 
 
@@ -190,9 +179,7 @@ class MotionRun:
         codes = values[-1]
         mark_singular(codes, found, self.solver.structure)
         barred = cut_off(codes, self.positions, breaks)
-        motion = marked(
-            self.solver, self.solver.nominal, self.positions, names, values, states, modes, barred
-        )
+        motion = marked(self.solver, self.solver.nominal, self.positions, names, values, states, modes, barred)
         motion.notes = passage_notes(found, self.positions)
         motion.breaks = breaks if self.positions.is_way else frozenset()
         return motion
@@ -220,9 +207,7 @@ def marked(
 def _clear(measures: tuple[str, ...], rows: Floats) -> bool:
     """Whether these outputs (measures, n) show that nothing is passed between two positions."""
     lows, highs = rows.min(axis=1).tolist(), rows.max(axis=1).tolist()
-    return clear_of_zero(
-        measures, lows, highs, lambda k: float(np.abs(np.diff(rows[k], append=rows[k, 0])).max())
-    )
+    return clear_of_zero(measures, lows, highs, lambda k: float(np.abs(np.diff(rows[k], append=rows[k, 0])).max()))
 
 
 def reached_modes(solver: MotionSolver, positions: Positions) -> tuple[dict[str, Floats], tuple[str, ...]]:

@@ -26,18 +26,14 @@ from linkwright.topology import Structure
 class MotionSolver:
     """Evaluates the motion of one mechanism; ``manner``: how it is traced."""
 
-    def __init__(
-        self, mechanism: Mechanism, manner: Manner = AS_IT_IS, assembly: Assembly | None = None
-    ) -> None:
+    def __init__(self, mechanism: Mechanism, manner: Manner = AS_IT_IS, assembly: Assembly | None = None) -> None:
         self.mechanism = mechanism
         self.manner = manner
         self._assembly = assembly
 
     def __getstate__(self) -> dict[str, Any]:
         """All but what every process makes for itself."""
-        return {
-            name: each for name, each in self.__dict__.items() if name not in ("programs", "_own_follower")
-        }
+        return {name: each for name, each in self.__dict__.items() if name not in ("programs", "_own_follower")}
 
     @cached_property
     def programs(self) -> MotionPrograms:

@@ -23,9 +23,7 @@ ROUNDING, ROOM = 1e-10, 1e-4
 
 def doubt(change: Scalar, correction: Scalar, misfit: Scalar, room: Scalar) -> Scalar:
     """Of a step's largest change, correction and misfit: below 1 the step counts."""
-    return maximum(
-        correction * reciprocal(CORRECTION * change + room), misfit * reciprocal(MISFIT * change + room)
-    )
+    return maximum(correction * reciprocal(CORRECTION * change + room), misfit * reciprocal(MISFIT * change + room))
 
 
 def misfit(rise: Any, rate: Any, second: Any, rate_there: Any, second_there: Any) -> Any:

@@ -37,9 +37,7 @@ class Stretch:
         """Places on the way at numbers of positions, counted on in between; behind the last one as before it."""
         n = len(self.places)
         step = self.places[-1] - self.places[-2]
-        return np.asarray(
-            np.interp(numbers, np.arange(n + 1), np.append(self.places, self.places[-1] + step))
-        )
+        return np.asarray(np.interp(numbers, np.arange(n + 1), np.append(self.places, self.places[-1] + step)))
 
     def read(self, tracker: BranchTracker, x: Floats, q: Floats) -> Floats:
         """Coordinates (m, n) at places x (m,) with the drivers at q (m, d); NaN where it does not go."""
@@ -77,8 +75,11 @@ class TrackedBranch(Frozen):
             states={name: row[order] for name, row in self.states.items()},
             coordinates=self.coordinates[order],
             stop_of=self.stop_of[order],
-            breaks=frozenset(), closed=False, returns=None, stretches=(),
-        )  # fmt: skip
+            breaks=frozenset(),
+            closed=False,
+            returns=None,
+            stretches=(),
+        )
 
     def between(self, places: Floats, inputs: Floats) -> dict[str, Floats]:
         """States (m,) at places (fractional numbers of positions) with the drivers at ``inputs`` (m, d).

@@ -81,9 +81,7 @@ class TrackingFormula:
         self.steps = [(group, step) for group in self.groups for step in group.unknowns]
         self.solved = [group in own for group, _ in self.steps]
         self.turns = [step.turns for _, step in self.steps]
-        self.as_angle = [
-            mine and geared(group) for (group, _), mine in zip(self.steps, self.solved, strict=True)
-        ]
+        self.as_angle = [mine and geared(group) for (group, _), mine in zip(self.steps, self.solved, strict=True)]
         self.states = state_places(self.steps, self.solved, counted(structure, programs.mechanism))
         self.rotary = [driver.law.rotary for driver in programs.mechanism.drivers.values()]
         self.scalar = self.of(self._outputs())
@@ -96,9 +94,7 @@ class TrackingFormula:
         """The program for some outputs; constant speeds of drivers are fields, one value per position."""
         with self.programs.lock:
             program = Program.of(self.programs.motion.trace, outputs)
-        return ScalarProgram(
-            program.with_inputs([f"{name}.speed" for name in self.programs.mechanism.drivers])
-        )
+        return ScalarProgram(program.with_inputs([f"{name}.speed" for name in self.programs.mechanism.drivers]))
 
     def _outputs(self) -> Mapping[str, Scalar | bool]:
         motion = self.programs.motion
@@ -153,9 +149,7 @@ class TrackedGroups:
         row = {name: k for k, name in enumerate(formula.program.output_names)}
         self._found = [
             (row[f"at {k}"], row.get(f"sin {k}"), float(unit), mine, turns)
-            for k, (unit, mine, turns) in enumerate(
-                zip(self.scale, formula.solved, formula.turns, strict=True)
-            )
+            for k, (unit, mine, turns) in enumerate(zip(self.scale, formula.solved, formula.turns, strict=True))
         ]
         self._rates, self._seconds = (
             [row[f"{name} {k}"] for k in range(len(formula.steps))] for name in ("rate", "second")
@@ -166,9 +160,7 @@ class TrackedGroups:
     def __reduce__(self) -> tuple[type[TrackedGroups], tuple[TrackingFormula, Design]]:
         return TrackedGroups, (self.formula, self.design)
 
-    def evaluator(
-        self, scalar: ScalarProgram, states: Mapping[str, tuple[int, str]] | None = None
-    ) -> Evaluate:
+    def evaluator(self, scalar: ScalarProgram, states: Mapping[str, tuple[int, str]] | None = None) -> Evaluate:
         """Evaluates a program of the motion's trace at coordinates z (n,), the drivers' q (d,), and their first
         derivatives along a straight way; ``states``: see :func:`state_places`."""
         places = self.formula.states if states is None else states
@@ -198,9 +190,7 @@ class TrackedGroups:
             value = out[at]
             if sine is not None:
                 value = z[k] + _turned(math.atan2(out[sine], value) - z[k])
-            if mine and not moved >= (
-                change := abs(value - z[k]) / (unit if turns else max(unit, abs(z[k])))
-            ):
+            if mine and not moved >= (change := abs(value - z[k]) / (unit if turns else max(unit, abs(z[k])))):
                 moved = change
             found.append(value)
         if not out[self._valid] and moved < CLOSED:

@@ -32,9 +32,7 @@ class AppliedWrench:
 
 def applied_wrenches(forces: Forces, index: int) -> list[AppliedWrench]:
     """All of them at one position, in the order of the model; those on the frame among them."""
-    order = [
-        (name, i, w) for name, group in forces.solver.forces.wrenches.items() for i, w in enumerate(group)
-    ]
+    order = [(name, i, w) for name, group in forces.solver.forces.wrenches.items() for i, w in enumerate(group)]
     outputs: dict[str, Scalar] = {}
     for name, i, w in order:
         parts = (w.force.x, w.force.y, w.place.x, w.place.y, w.torque)

@@ -74,9 +74,7 @@ class Forces(PlotMixin):
         """Sizes (n,), N, below which a joint force is a rounding error of the largest of the machine there."""
         rows = self.rows
         found = rows.values[[place for name, place in rows.index.items() if kind_of(name) == "reaction"]]
-        return np.asarray(
-            ROUNDING * np.where(np.isfinite(found), np.abs(found), 0.0).max(axis=0, initial=0.0)
-        )
+        return np.asarray(ROUNDING * np.where(np.isfinite(found), np.abs(found), 0.0).max(axis=0, initial=0.0))
 
     @cached_property
     def rounding(self) -> float:
@@ -104,9 +102,7 @@ class Forces(PlotMixin):
         if axes == "frame":
             return force
         e = self.motion.link(axes if axes in self.mechanism.links else self._unknown_link(axes)).direction
-        return locked(
-            np.stack([(e * force).sum(axis=1), e[:, 0] * force[:, 1] - e[:, 1] * force[:, 0]], axis=1)
-        )
+        return locked(np.stack([(e * force).sum(axis=1), e[:, 0] * force[:, 1] - e[:, 1] * force[:, 0]], axis=1))
 
     def direction(self, joint: str, *, on: str | None = None) -> Floats:
         """Direction (n,), rad from the x axis of the frame, of the force that a joint exerts on link ``on``.
@@ -154,10 +150,7 @@ class Forces(PlotMixin):
         """The same from the powers of all forces, (n,); for one driver; NaN where it is at rest."""
         if len(self.mechanism.drivers) != 1:
             raise RequestError(
-                _(
-                    "with several drivers the powers give one sum, not the effort of one driver",
-                    code="forces.one_sum",
-                )
+                _("with several drivers the powers give one sum, not the effort of one driver", code="forces.one_sum")
             )
         rate = self.motion.positions.coordinates[self._first_driver()][1]
         with np.errstate(all="ignore"):

@@ -61,9 +61,7 @@ class FrictionTerms:
         for name, joint in mechanism.joints.items():
             arm, slides = joint.friction_arm, joint.coordinate == "slide"
             if arm:
-                pairs = [
-                    (c.a, c.b) for p in motion.placed.values() for c in p.group.joints if c.joint == name
-                ]
+                pairs = [(c.a, c.b) for p in motion.placed.values() for c in p.group.joints if c.joint == name]
                 terms += [FrictionTerm(name, a, b, arm, slides) for a, b in pairs]
         return cls(motion, tuple(terms))
 

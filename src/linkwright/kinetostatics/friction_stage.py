@@ -92,21 +92,21 @@ class _Block:
     def under(self, sizes: Sequence[Scalar]) -> tuple[list[Vec], list[list[Vec]]]:
         """The forces under friction from normal forces, and their derivatives by these."""
         forces = [
-            Vec(*(
-                free + product([[getattr(gain, axis) for gain in row]], sizes)[0]
-                for axis, free in (("x", force.x), ("y", force.y))
-            ))
+            Vec(
+                *(
+                    free + product([[getattr(gain, axis) for gain in row]], sizes)[0]
+                    for axis, free in (("x", force.x), ("y", force.y))
+                )
+            )
             for force, row in zip(self.first, self.gains, strict=True)
-        ]  # fmt: skip
+        ]
         slopes = [list(row) for row in self.gains]
         for pair in self.teeth:
             force = pair.first + product([pair.gains], sizes)[0]
             side = select(force < 0.0, -1.0, 1.0)
             for j, press in enumerate(pair.presses):
                 forces[j] = forces[j] + press * (force * side)
-                slopes[j] = [
-                    gain + press * (side * by) for gain, by in zip(slopes[j], pair.gains, strict=True)
-                ]
+                slopes[j] = [gain + press * (side * by) for gain, by in zip(slopes[j], pair.gains, strict=True)]
         return forces, slopes
 
     @property

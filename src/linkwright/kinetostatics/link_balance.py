@@ -20,10 +20,7 @@ def balance_residual(forces: Forces) -> Floats:
     """
     mechanism = forces.mechanism
     size = max(
-        abs(c)
-        for link in (mechanism.frame, *mechanism.links.values())
-        for p in link.points.values()
-        for c in p
+        abs(c) for link in (mechanism.frame, *mechanism.links.values()) for p in link.points.values() for c in p
     )
     worst = np.zeros(forces.steps)
     forces.motion.evaluate_together(motion_outputs(forces))

@@ -30,11 +30,7 @@ from linkwright.registry import offered
 from linkwright.words import _
 
 #: What jerks are the rates of.
-_ACCELERATIONS = {
-    "jerk": "acceleration",
-    "angular_jerk": "angular_acceleration",
-    "slide_jerk": "slide_acceleration",
-}
+_ACCELERATIONS = {"jerk": "acceleration", "angular_jerk": "angular_acceleration", "slide_jerk": "slide_acceleration"}
 
 
 @dataclass(frozen=True)
@@ -139,8 +135,7 @@ class Named:
             if driver.law.constant_speed is None:
                 raise RequestError(
                     _(
-                        "{name!r}: a jerk needs drivers of constant speed, but the driver {driver} has "
-                        "another law",
+                        "{name!r}: a jerk needs drivers of constant speed, but the driver {driver} has another law",
                         code="study.no_jerk",
                         name=name,
                         driver=driver.name,

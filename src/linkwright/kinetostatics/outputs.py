@@ -80,9 +80,7 @@ class ForceOutputs:
             arm = state.arm(centre)
             push = state.acceleration_of(centre) * dimensions(f"{name}.mass")
             force = force - push
-            moment = (
-                moment - (state.pose.place + arm).cross(push) - dimensions(f"{name}.inertia") * state.alpha
-            )
+            moment = moment - (state.pose.place + arm).cross(push) - dimensions(f"{name}.inertia") * state.alpha
         return force, moment
 
     @cached_property

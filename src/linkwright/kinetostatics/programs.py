@@ -49,9 +49,7 @@ def _no_angle(link: str) -> NoReturn:
 class ForcePrograms:
     """The traced forces of all mechanisms of one shape, and the programs made of them."""
 
-    def __init__(
-        self, motion: MotionPrograms, inertia: bool, along_input: frozenset[str], rubbing: bool
-    ) -> None:
+    def __init__(self, motion: MotionPrograms, inertia: bool, along_input: frozenset[str], rubbing: bool) -> None:
         self.motion = motion
         self.lock = motion.lock
         self.inertia = inertia
@@ -133,11 +131,7 @@ class ForcePrograms:
 
 
 def force_programs(
-    motion: MotionPrograms,
-    *,
-    inertia: bool = True,
-    along_input: frozenset[str] = frozenset(),
-    rubbing: bool = False,
+    motion: MotionPrograms, *, inertia: bool = True, along_input: frozenset[str] = frozenset(), rubbing: bool = False
 ) -> ForcePrograms:
     """The programs of the forces that belong to those of a motion; arguments as for ``trace_forces``, ``rubbing``:
     the friction is traced, else an input per position."""

@@ -68,9 +68,7 @@ class ForceChecks:
     @cached_property
     def _speeds(self) -> tuple[tuple[str, ...], Floats]:
         """Rows of the motion that are speeds, and the factors (rows, 1) that make them m/s."""
-        names = tuple(
-            name for name in self.motion.standard if kind_of(name) in ("velocity", "angular_velocity")
-        )
+        names = tuple(name for name in self.motion.standard if kind_of(name) in ("velocity", "angular_velocity"))
         turning = (kind_of(name) == "angular_velocity" for name in names)
         return names, np.array([[self.size if each else 1.0] for each in turning]).reshape(-1, 1)
 

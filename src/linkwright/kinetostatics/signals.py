@@ -110,9 +110,7 @@ class MotionSignals:
         first = _between(self.cycle, a, b)
         begin = next(iter(first[np.isfinite(first)]), near)
         first = first + TURN * np.round((near - begin) / TURN)
-        return (
-            first if self.cycle is self.motion else self._angles.anchored(_between(self.motion, a, b), first)
-        )
+        return first if self.cycle is self.motion else self._angles.anchored(_between(self.motion, a, b), first)
 
     def angle_of(self, a: str, b: str, near: float | None) -> Floats:
         """The same; without ``near`` as the motion has it."""

@@ -67,9 +67,7 @@ class ForceSolver:
     def fields_needed(self) -> tuple[str, ...]:
         """Inputs per position that are found from the motion: load magnitudes, angles, friction."""
         carried = self.motion.motion.next_states
-        return tuple(
-            name for name in self.program(self.programs.checks.names).program.fields if name not in carried
-        )
+        return tuple(name for name in self.program(self.programs.checks.names).program.fields if name not in carried)
 
     def evaluate(self, names: tuple[str, ...], motion: Motion, fields: Mapping[str, Floats]) -> Floats:
         """Outputs by name, shape (names, n)."""

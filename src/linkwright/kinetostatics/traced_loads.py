@@ -67,11 +67,7 @@ def numbers_of_loads(loads: Iterable[Load], mechanism: Mechanism) -> AlongInput:
             for name, each in magnitudes.items()
             for key, value in each.constants.items()
         },
-        {
-            row_name("magnitude", name): each.size.curve
-            for name, each in magnitudes.items()
-            if each.size.curve
-        },
+        {row_name("magnitude", name): each.size.curve for name, each in magnitudes.items() if each.size.curve},
         tuple(name for name, each in magnitudes.items() if each.fallible),
     )
 

@@ -68,9 +68,7 @@ class Gutman(MotionLaw):
     """s = u - (15/16) sin(2πu)/(2π) - (1/16) sin(6πu)/(6π): first and third order."""
 
     formula = two_sines("15/16", "1/16")
-    source: ClassVar[str] = (
-        "A. S. Gutman, To avoid vibration try this new cam profile, Product Engineering, 1961"
-    )
+    source: ClassVar[str] = "A. S. Gutman, To avoid vibration try this new cam profile, Product Engineering, 1961"
 
     def curves(self, u: Any) -> tuple[Any, Any, Any, Any]:
         return sines(u, ((1, 15 / 16), (3, 1 / 16)))

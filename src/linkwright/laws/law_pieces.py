@@ -47,9 +47,7 @@ class LawPieces:
         """Those of a law, halved until they meet it between its breaks."""
         inner = law.breaks(start, end)
         edges = np.concatenate([[start], inner[(inner > start) & (inner < end)], [end]])
-        sizes = [
-            max(float(np.abs(row).max()), 1e-300) for row in law.coordinate(np.linspace(start, end, 721))
-        ]
+        sizes = [max(float(np.abs(row).max()), 1e-300) for row in law.coordinate(np.linspace(start, end, 721))]
         waiting = [(a, b, 0) for a, b in zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True)]
         found: list[tuple[float, list[float]]] = []
         while waiting:
@@ -68,9 +66,7 @@ class LawPieces:
         scale, shift, middle, rate, *second = row_at(t, self.edges, self.rows)
         u, half = t * scale + shift, 1.0 / scale
         once = horner([c * (1.0 / (k + 1)) for k, c in enumerate(second)], u) * u * half
-        twice = (
-            horner([c * (1.0 / ((k + 1) * (k + 2))) for k, c in enumerate(second)], u) * (u * u) * half * half
-        )
+        twice = horner([c * (1.0 / ((k + 1) * (k + 2))) for k, c in enumerate(second)], u) * (u * u) * half * half
         return middle + rate * (u * half) + twice, rate + once, horner(second, u)
 
 

@@ -121,9 +121,7 @@ class PolynomialOf(Polynomial):
     Without any it is s = u.
     """
 
-    start: Coefficients = file_key(
-        Quantities("dimensionless", doc="v, a, j, … at u = 0, as many as are wanted"), ()
-    )
+    start: Coefficients = file_key(Quantities("dimensionless", doc="v, a, j, … at u = 0, as many as are wanted"), ())
     end: Coefficients = file_key(Quantities("dimensionless", doc="v, a, j, … at u = 1"), ())
 
     def __post_init__(self) -> None:

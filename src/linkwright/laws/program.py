@@ -169,10 +169,7 @@ class MotionProgram(Program):
                     "program_empty",
                     "program",
                     _("the program is empty"),
-                    _(
-                        "write segments such as {{rise: 10 mm, over: 90 deg, law: cycloidal}} and {{dwell: "
-                        "90 deg}}",
-                    ),
+                    _("write segments such as {{rise: 10 mm, over: 90 deg, law: cycloidal}} and {{dwell: 90 deg}}"),
                 )
             ]
         found = [
@@ -224,10 +221,7 @@ class MotionProgram(Program):
             fault(
                 "lift_open",
                 f"program.{len(self.segments) - 1}",
-                _(
-                    "the program does not close: it begins at a lift of {first} and ends at {last} (SI "
-                    "units)",
-                ),
+                _("the program does not close: it begins at a lift of {first} and ends at {last} (SI units)"),
                 _("let the falls be as high as the rises, or end with to: {first}"),
                 first=self.start,
                 last=last,
@@ -245,11 +239,11 @@ class MotionProgram(Program):
                         f"program.{k}",
                         _(
                             "the velocity jumps at {place} from {before} to {after} (lift per rad or s, SI "
-                            "units): the acceleration would be infinite",
+                            "units): the acceleration would be infinite"
                         ),
                         _(
                             "take a law that ends and begins with the same velocity, such as polynomial_5, or "
-                            "give the velocity at the junction",
+                            "give the velocity at the junction"
                         ),
                         place=self.place_text(junction.place),
                         before=junction.before[1] + 0.0,
@@ -372,9 +366,7 @@ class MotionProgram(Program):
             before = _at(pieces[b], 1.0, self.segments[b].over)
             after = _at(pieces[a], 0.0, self.segments[a].over)
             jumps = [abs(p - q) > _SAME * size for p, q, size in zip(before, after, sizes, strict=True)]
-            found.append(
-                Junction(float(self.edges[k]), before, after, (jumps[0], jumps[1], jumps[2], jumps[3]))
-            )
+            found.append(Junction(float(self.edges[k]), before, after, (jumps[0], jumps[1], jumps[2], jumps[3])))
         return tuple(found)
 
     @cached_property

@@ -49,11 +49,7 @@ class LawField(Field):
         kind = reader.word(kind_node, place.child("kind"), tuple(MOTION_LAWS))
         if kind is None:
             return None
-        fields: Mapping[str, Field] = {
-            "kind": Word(tuple(MOTION_LAWS)),
-            **MOTION_LAWS[kind].fields,
-            **_ALTERED,
-        }
+        fields: Mapping[str, Field] = {"kind": Word(tuple(MOTION_LAWS)), **MOTION_LAWS[kind].fields, **_ALTERED}
         before = reader.error_count
         values = reader.table(node, place, fields)
         if values is None or reader.error_count > before:
@@ -79,11 +75,7 @@ class LawField(Field):
         from linkwright.laws.fitting import altered
 
         kind = MOTION_LAWS[values.pop("kind")]
-        changes = [
-            values.pop("crossover", None),
-            values.pop("portion", None),
-            values.pop("backwards", "") == "true",
-        ]
+        changes = [values.pop("crossover", None), values.pop("portion", None), values.pop("backwards", "") == "true"]
         if not any(changes) and kind.meeting(Ends(), 1.0) is not None:
             return kind.key
         try:
@@ -115,8 +107,11 @@ class LawField(Field):
                     law=value.key,
                 )
             )
-        own = {key: each.written(getattr(value, key)) for key, each in fields.items()
-               if getattr(value, key) not in (None, ())}  # fmt: skip
+        own = {
+            key: each.written(getattr(value, key))
+            for key, each in fields.items()
+            if getattr(value, key) not in (None, ())
+        }
         return {"kind": value.key, **own, **found} if own or found else value.key
 
     def shape(self) -> Schema:
@@ -165,13 +160,7 @@ class ProgramField(Field):
         return self._program(reader, node, items, place, made, siblings.get("start") or 0.0)
 
     def _program(
-        self,
-        reader: Reader,
-        node: Node,
-        items: list[Node],
-        place: Place,
-        segments: tuple[Segment, ...],
-        start: float,
+        self, reader: Reader, node: Node, items: list[Node], place: Place, segments: tuple[Segment, ...], start: float
     ) -> MotionProgram | None:
         from linkwright.laws.program import TURN, MotionProgram
 
@@ -182,16 +171,12 @@ class ProgramField(Field):
             for each in error.findings:
                 number = each.key.split(".")[1:2]
                 at = items[int(number[0])] if number else node
-                reader.error(
-                    at, place.child(number[0]) if number else place, each.message, each.remedy, each.code
-                )
+                reader.error(at, place.child(number[0]) if number else place, each.message, each.remedy, each.code)
         except LinkwrightError as error:
             reader.error(node, place, error.sentence, "", error.code)
         return None
 
-    def _segment(
-        self, reader: Reader, node: Node, place: Place, fields: Mapping[str, Field]
-    ) -> Segment | None:
+    def _segment(self, reader: Reader, node: Node, place: Place, fields: Mapping[str, Field]) -> Segment | None:
         from linkwright.laws.program import Segment
 
         before = reader.error_count

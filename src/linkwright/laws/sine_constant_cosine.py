@@ -66,10 +66,14 @@ class Family(MotionLaw):
         zones = [
             (b / pi * (y - b / pi * _sin(y, b)), b / pi * (1 - _cos(y, b)), _sin(y, b), _cos(y, b, 1)),
             (s[1] + v[1] * y + 0.5 * y * y, v[1] + y, 1.0 + 0.0 * y, 0.0 * y),
-            (s[2] + v[2] * y + (d / pi) ** 2 * (1 - _cos(y, d)), v[2] + d / pi * _sin(y, d), _cos(y, d),
-             -_sin(y, d, 1)),
+            (
+                s[2] + v[2] * y + (d / pi) ** 2 * (1 - _cos(y, d)),
+                v[2] + d / pi * _sin(y, d),
+                _cos(y, d),
+                -_sin(y, d, 1),
+            ),
             (s[3] + v[3] * y, v[3] + 0.0 * y, 0.0 * y, 0.0 * y),
-        ]  # fmt: skip
+        ]
         found = (size * np.choose(zone, [each[order] for each in zones]) for order in range(4))
         return next(found), next(found), next(found), next(found)
 

@@ -24,11 +24,7 @@ _LOOKS, _ROUNDS = 6, 4
 _WORTH = 1e-7
 
 
-_WORDS = {
-    "velocity": _("velocity"),
-    "acceleration": _("acceleration"),
-    "jerk": _("jerk"),
-}
+_WORDS = {"velocity": _("velocity"), "acceleration": _("acceleration"), "jerk": _("jerk")}
 
 
 @dataclass(frozen=True)
@@ -86,9 +82,7 @@ class FoundProgram(Program):
             )
         if not self.points and not self.windows:
             found.append(
-                fault(
-                    "nothing_asked", "find", _("nothing is asked of the motion"), _("give points or windows")
-                )
+                fault("nothing_asked", "find", _("nothing is asked of the motion"), _("give points or windows"))
             )
         if not 12 <= self.pieces <= 720:
             found.append(
@@ -209,12 +203,7 @@ class FoundProgram(Program):
         add(np.concatenate([one_side, -one_side]), -1.0, 0.0, "")
         for name, limit in self.limits:
             bound = space.bounds(ORDERS[name])
-            add(
-                np.concatenate([bound, -bound]),
-                0.0,
-                limit,
-                _("limit of the {what}", what=_WORDS[name]),
-            )
+            add(np.concatenate([bound, -bound]), 0.0, limit, _("limit of the {what}", what=_WORDS[name]))
         for k, each in enumerate(self.windows):
             if each.least == each.most:
                 continue
@@ -237,9 +226,7 @@ class FoundProgram(Program):
         for k, each in enumerate(self.windows):
             if each.least != each.most:
                 continue
-            spans = np.flatnonzero(
-                (space.knots[:-1] < each.end - 1e-12) & (space.knots[1:] > each.start + 1e-12)
-            )
+            spans = np.flatnonzero((space.knots[:-1] < each.end - 1e-12) & (space.knots[1:] > each.start + 1e-12))
             touched = sorted({int(i + j) % space.size for i in spans for j in range(DEGREE + 1)})
             for i in touched:
                 rows.append(np.eye(space.size)[i])

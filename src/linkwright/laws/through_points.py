@@ -38,8 +38,7 @@ def _checked(places: tuple[float, ...], values: tuple[float, ...]) -> tuple[Floa
     if ends:
         raise RequestError(
             _(
-                "a rise goes from 0 at u = 0 to 1 at u = 1, but an end has the value {value:.6g}; "
-                "leave the ends out",
+                "a rise goes from 0 at u = 0 to 1 at u = 1, but an end has the value {value:.6g}; leave the ends out",
                 code="laws.points_ends",
                 value=ends[0],
             )
@@ -51,9 +50,7 @@ def _checked(places: tuple[float, ...], values: tuple[float, ...]) -> tuple[Floa
 class Through(MotionLaw):
     """What laws through points have in common."""
 
-    places: tuple[float, ...] = file_key(
-        Quantities("dimensionless", doc="places u between 0 and 1, increasing")
-    )
+    places: tuple[float, ...] = file_key(Quantities("dimensionless", doc="places u between 0 and 1, increasing"))
     values: tuple[float, ...] = file_key(
         Quantities("dimensionless", doc="displacements there, as shares of the lift")
     )

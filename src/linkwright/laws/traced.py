@@ -177,8 +177,11 @@ def horner(row: Sequence[Scalar], t: Scalar) -> Scalar:
 def _start_of_rest(lifts: Floats) -> int | None:
     """Where a rest begins that begins within the turn; None where there is none, or nothing but rest."""
     still = np.diff(lifts) == 0.0
-    runs = [k for k in range(len(still)) if still[k] and not still[k - 1] and np.take(
-        still, range(k, k + RESTING - 1), mode="wrap").all()]  # fmt: skip
+    runs = [
+        k
+        for k in range(len(still))
+        if still[k] and not still[k - 1] and np.take(still, range(k, k + RESTING - 1), mode="wrap").all()
+    ]
     return runs[0] if runs else None
 
 
@@ -199,8 +202,10 @@ def _stretches(x: Floats, y: Floats, *, resting: bool) -> Iterator[tuple[float, 
             yield float(x[end]), PPoly([[y[here]]], [x[here], x[end]])
             here = end
             continue
-        end = next((k for k in range(here + 1, len(x) - 1) if (y[k : k + RESTING] == y[k]).all()
-                    and k + RESTING <= len(x)), len(x) - 1)  # fmt: skip
+        end = next(
+            (k for k in range(here + 1, len(x) - 1) if (y[k : k + RESTING] == y[k]).all() and k + RESTING <= len(x)),
+            len(x) - 1,
+        )
         spline = make_interp_spline(x[here : end + 1], y[here : end + 1], k=5, bc_type=(at_rest, at_rest))
         yield float(x[end]), PPoly.from_spline(spline)
         here = end

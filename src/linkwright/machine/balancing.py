@@ -65,20 +65,26 @@ class Balancing(PlotMixin, Tabular, Frozen):
     def tables(self, language: str = "en") -> tuple[Table, ...]:
         """The counterweights, places in link axes, where there are any; the peaks without and with them."""
         weights: list[list[Cell]] = [
-            [each.link, Amount(each.mass, "mass", bare=True),
-             *(Amount(value, "length", bare=True) for value in _cleared(each.place))]
+            [
+                each.link,
+                Amount(each.mass, "mass", bare=True),
+                *(Amount(value, "length", bare=True) for value in _cleared(each.place)),
+            ]
             for each in self.counterweights
-        ]  # fmt: skip
+        ]
         peaks: list[list[Cell]] = [
-            [PEAKS[name], unit, Amount(without), Amount(having),
-             Amount(having / without, digits=4, scale=PERCENT) if without else ""]
+            [
+                PEAKS[name],
+                unit,
+                Amount(without),
+                Amount(having),
+                Amount(having / without, digits=4, scale=PERCENT) if without else "",
+            ]
             for name, unit, without, having in self._peaks()
-        ]  # fmt: skip
+        ]
         head = (_("counterweight on"), _("mass kg"), "x mm", "y mm")
         headings = (_("peak of"), _("unit"), _("without"), _("with"), _("remains"))
-        none = _(
-            "No counterweight is needed: the links have no mass, or their mass centres lie where they must."
-        )
+        none = _("No counterweight is needed: the links have no mass, or their mass centres lie where they must.")
         first = Table(head, weights) if weights else Table(notes=[none])
         return Table(title=self.mechanism.name), first, Table(headings, peaks, "<<>>>")
 
@@ -99,9 +105,7 @@ class Balancing(PlotMixin, Tabular, Frozen):
     def model_text(self) -> str:
         """The balanced model as a file; masses that were expressions become the new numbers."""
         changed = tuple(
-            f"{weight.link}.{key}"
-            for weight in self.counterweights
-            for key in ("mass", "inertia", "mass_centre")
+            f"{weight.link}.{key}" for weight in self.counterweights for key in ("mass", "inertia", "mass_centre")
         )
         unchanged = {
             address: each
@@ -182,8 +186,7 @@ def _radius(radius: Radius, link: str) -> float:
     if isinstance(radius, Mapping) and link not in radius:
         raise RequestError(
             _(
-                "no radius is set for the counterweight on {link!r}; add it to the radii, or give "
-                "one for all",
+                "no radius is set for the counterweight on {link!r}; add it to the radii, or give one for all",
                 code="forces.weight_no_radius",
                 link=link,
             )

@@ -80,9 +80,7 @@ def of_areas(energy: EnergyFluctuation, options: DriveOptions, say: Translate) -
     return _blocks(first, rows, dimensions(flywheel, options.speed or 0.0, options))
 
 
-def of_curves(
-    driver: TorqueCurve, load: TorqueCurve | None, options: DriveOptions, say: Translate
-) -> list[Block]:
+def of_curves(driver: TorqueCurve, load: TorqueCurve | None, options: DriveOptions, say: Translate) -> list[Block]:
     """Rows of a driving torque against a load; raises LinkwrightError for a mean torque of zero."""
     mean = driver.mean
     (_unused, lowest), (_unused2, highest) = driver.extremes()
@@ -106,9 +104,7 @@ def of_curves(
         if found.power != found.mean_power:
             first.append(Row("motor_power", found.power, "power"))
         if load is not None and highest - lowest <= NOTHING * highest:
-            alone = motor(
-                load.extremes()[1][1], options.speed, efficiency=options.efficiency, margin=options.margin
-            )
+            alone = motor(load.extremes()[1][1], options.speed, efficiency=options.efficiency, margin=options.margin)
             first.append(Row("motor_power_without_flywheel", alone.power, "power"))
     second = [
         Row("energy_fluctuation", energy.value, "energy"),

@@ -24,10 +24,7 @@ if TYPE_CHECKING:
 #: Angles of a cycle at which a torque must be finite.
 TRIED = 3601
 #: Dimensions of a flywheel.
-DISK: Mapping[str, Field] = {
-    "density": Quantity("density", above=0.0),
-    "width_ratio": Number(above=0.0, key="width"),
-}
+DISK: Mapping[str, Field] = {"density": Quantity("density", above=0.0), "width_ratio": Number(above=0.0, key="width")}
 RIM = {**DISK, "thickness_ratio": Number(above=0.0, maximum=0.5, key="thickness")}
 
 NEEDS_SPEED = _(
@@ -40,8 +37,7 @@ NEEDS_FLUCTUATION = _(
     code="machine.shape_needs_fluctuation",
 )
 _BAD_SCALE = _(
-    '"{text}" does not give both scales; write torque and angle per mm above '
-    'zero, such as "5 N·m/mm, 1 deg/mm"',
+    '"{text}" does not give both scales; write torque and angle per mm above zero, such as "5 N·m/mm, 1 deg/mm"',
     code="machine.bad_scale",
 )
 _BAD_AREA = _(
@@ -120,24 +116,16 @@ class DriveOptions:
     """What is asked of motor and flywheel, and a torque diagram with the inertia that is on its shaft already, SI."""
 
     fluctuation: float | None = file_key(
-        replace(
-            COEFFICIENT,
-            doc=_("required coefficient of speed fluctuation (of a machine: 0.02 where left out)"),
-        ),
+        replace(COEFFICIENT, doc=_("required coefficient of speed fluctuation (of a machine: 0.02 where left out)")),
         None,
     )
     ratio: float = file_key(
         Number(nonzero=True, doc=_("speed of the flywheel's shaft over that of the crank (default 1)")), 1.0
     )
     efficiency: float = file_key(
-        Number(
-            above=0.0, maximum=1.0, doc=_("efficiency of all between motor and crank, up to 1 (default 1)")
-        ),
-        1.0,
+        Number(above=0.0, maximum=1.0, doc=_("efficiency of all between motor and crank, up to 1 (default 1)")), 1.0
     )
-    margin: float = file_key(
-        Number(minimum=1.0, doc=_("factor on the motor's power, 1 or more (default 1)")), 1.0
-    )
+    margin: float = file_key(Number(minimum=1.0, doc=_("factor on the motor's power, 1 or more (default 1)")), 1.0)
     disk: Callable[[float], FlywheelSize] | None = file_key(
         Table(
             DISK,
@@ -167,8 +155,7 @@ class DriveOptions:
         None,
     )
     period: float | None = file_key(
-        Quantity("angle", above=0.0, doc=_("angle of a cycle (default 360deg; four-stroke engines 720deg)")),
-        None,
+        Quantity("angle", above=0.0, doc=_("angle of a cycle (default 360deg; four-stroke engines 720deg)")), None
     )
     torque: tuple[str, TorqueCurve] | None = file_key(
         Torque(doc=_('driving torque in N·m over theta in rad: "5000 + 600*sin(2*theta)"')), None
@@ -185,9 +172,7 @@ class DriveOptions:
     mass: float | None = file_key(
         Quantity("mass", above=0.0, doc=_("mass of the flywheel that is there, with --gyration: 36kg")), None
     )
-    gyration: float | None = file_key(
-        Quantity("length", above=0.0, doc=_("its radius of gyration: 150mm")), None
-    )
+    gyration: float | None = file_key(Quantity("length", above=0.0, doc=_("its radius of gyration: 150mm")), None)
 
     @property
     def size(self) -> Callable[[float], FlywheelSize] | None:

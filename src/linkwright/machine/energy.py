@@ -105,9 +105,7 @@ def _diagram(energy: Curve, low: float, high: float) -> tuple[Floats, Floats]:
     return angle, energy(angle)
 
 
-def fluctuation_from_areas(
-    areas: Sequence[float], *, torque_scale: float, angle_scale: float
-) -> EnergyFluctuation:
+def fluctuation_from_areas(areas: Sequence[float], *, torque_scale: float, angle_scale: float) -> EnergyFluctuation:
     """From the areas between torque curve and mean line, in turn, positive above it.
 
     ``areas`` in mm²; ``torque_scale`` N·m per mm; ``angle_scale`` rad per mm. E after each area is the running sum.
@@ -116,24 +114,17 @@ def fluctuation_from_areas(
     values = np.asarray(areas, dtype=float)
     if values.ndim != 1 or not values.size or not np.isfinite(values).all():
         raise LinkwrightError(
-            _(
-                "give the areas as a list of numbers in mm², in the order of the diagram",
-                code="running.areas_list",
-            )
+            _("give the areas as a list of numbers in mm², in the order of the diagram", code="running.areas_list")
         )
     if not (torque_scale > 0 and angle_scale > 0):
         raise LinkwrightError(
-            _(
-                "the scales of the torque diagram must be above zero: N·m per mm, rad per mm",
-                code="running.scales",
-            )
+            _("the scales of the torque diagram must be above zero: N·m per mm, rad per mm", code="running.scales")
         )
     energy = np.concatenate([[0.0], np.cumsum(values)]) * torque_scale * angle_scale
     if abs(values.sum()) > BALANCE * np.abs(values).sum():
         raise LinkwrightError(
             _(
-                "the areas add up to {total:g} mm², not to zero: the mean line is misplaced or an "
-                "area is missing",
+                "the areas add up to {total:g} mm², not to zero: the mean line is misplaced or an area is missing",
                 code="running.areas_sum",
                 total=values.sum(),
             )

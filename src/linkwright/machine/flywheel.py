@@ -132,8 +132,7 @@ def _require(fluctuation: float, speed: float) -> None:
     if not real("fluctuation", fluctuation, finite=False) > 0:
         raise RequestError(
             _(
-                "the coefficient of speed fluctuation is {fluctuation:g}; give a value above zero, "
-                "such as 0.02",
+                "the coefficient of speed fluctuation is {fluctuation:g}; give a value above zero, such as 0.02",
                 code="running.bad_coefficient",
                 fluctuation=fluctuation,
             )

@@ -61,12 +61,15 @@ def share(key: str, value: float, label: str = "") -> Row:
 def speeds(curve: SpeedCurve, at: Callable[[float], float], say: Translate, before: str = "") -> list[Row]:
     """How even a speed is, and its extremes; ``before`` their keys."""
     slow, fast = curve.slowest, curve.fastest
-    reached = share(
-        f"{before}reached_fluctuation", curve.fluctuation, _("  coefficient really reached with it")
-    )
+    reached = share(f"{before}reached_fluctuation", curve.fluctuation, _("  coefficient really reached with it"))
     ends = (("slowest", slow), ("fastest", fast))
-    return [reached, *(placed(f"{before}{key}", value, "angular_velocity", at(place), LABELS[key])
-                       for key, (place, value) in ends)]  # fmt: skip
+    return [
+        reached,
+        *(
+            placed(f"{before}{key}", value, "angular_velocity", at(place), LABELS[key])
+            for key, (place, value) in ends
+        ),
+    ]
 
 
 @dataclass(frozen=True)
@@ -141,11 +144,7 @@ class SteadyRunning(PlotMixin, Numbers):
             Block(
                 "energy",
                 "",
-                [
-                    Row("energy_fluctuation", energy.value, "energy"),
-                    *(ends if energy.value else []),
-                    *inertia,
-                ],
+                [Row("energy_fluctuation", energy.value, "energy"), *(ends if energy.value else []), *inertia],
             ),
             Block("formula", "", [Row("flywheel", self.flywheel, "inertia"), *speeds(self.speed, at, say)]),
             Block("exact", "", [*exact, *speeds(self.exact_speed, at, say, "exact_")]),
@@ -171,9 +170,7 @@ class SteadyRunning(PlotMixin, Numbers):
             []
             if self.exact_flywheel
             else [
-                _("No flywheel is needed: the machine's own inertia keeps the speed even enough.").translate(
-                    language
-                )
+                _("No flywheel is needed: the machine's own inertia keeps the speed even enough.").translate(language)
             ]
         )
         return found + [f"! {remark.text(language)}" for value in near for remark in value.warnings]
@@ -201,9 +198,7 @@ class SteadyRunning(PlotMixin, Numbers):
     @property
     def evened(self) -> Message | None:
         """That the motor of the mean power suffices only with a flywheel, or with the inertia of the machine."""
-        if self.driven is not None or self.power_without_flywheel <= self.motor.power * (
-            1.0 + ZERO_TOLERANCE
-        ):
+        if self.driven is not None or self.power_without_flywheel <= self.motor.power * (1.0 + ZERO_TOLERANCE):
             return None
         powers = (self.motor.power, self.power_without_flywheel)
         most, peak = (shown(each, "power") for each in powers)
@@ -236,12 +231,7 @@ class SteadyRunning(PlotMixin, Numbers):
 
 
 def steady_running(
-    forces: Forces,
-    *,
-    fluctuation: float,
-    ratio: float = 1.0,
-    efficiency: float = 1.0,
-    margin: float = 1.0,
+    forces: Forces, *, fluctuation: float, ratio: float = 1.0, efficiency: float = 1.0, margin: float = 1.0
 ) -> SteadyRunning:
     """Motor, flywheel and true speed of a machine driven by a constant torque, or, as an engine, held by one.
 
@@ -279,9 +269,7 @@ def steady_running(
 def require_steady(forces: Forces) -> None:
     """Raises LinkwrightError, as :func:`steady_running`, for a machine that runs unevenly or takes no work."""
     rate = steady_rate(forces.motion)
-    _require_load(
-        float(np.sign(rate) * Analysis.of(forces).part(Summary("input_torque", "mean")).value), forces
-    )
+    _require_load(float(np.sign(rate) * Analysis.of(forces).part(Summary("input_torque", "mean")).value), forces)
 
 
 def _require_load(mean: float, forces: Forces) -> None:

@@ -87,11 +87,7 @@ def true_speed(
 
     if not speed > 0:
         raise LinkwrightError(
-            _(
-                "the mean speed is {speed:g} rad/s; give a value above zero",
-                code="running.bad_speed",
-                speed=speed,
-            )
+            _("the mean speed is {speed:g} rad/s; give a value above zero", code="running.bad_speed", speed=speed)
         )
     driving = TorqueCurve.constant(load.mean, period=load.period) if driver is None else driver
     if driver is not None:
@@ -121,9 +117,7 @@ class SteadyCycle:
         start, end = self.work.edges[[0, -1]].tolist()
         angle = np.linspace(start, end, steps + 1)
         low, high = ((each.place, each.value) for each in (found.slowest, found.fastest))
-        return SpeedCurve(
-            angle, self.speed, low, high, motor_torque, partial(self._at, flywheel, found.energy)
-        )
+        return SpeedCurve(angle, self.speed, low, high, motor_torque, partial(self._at, flywheel, found.energy))
 
     def fluctuation(self, flywheel: float) -> float:
         """Coefficient of speed fluctuation; raises as ``curve``."""

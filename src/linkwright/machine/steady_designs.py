@@ -16,8 +16,11 @@ from linkwright.machine.speeds import Speeds, SteadyCycles
 #: Kinds of numbers, with the weights of the largest and the smallest speed in them; the ``size`` is the flywheel with
 #: which the speed fluctuates by just what is asked for.
 SIDES: Mapping[str, tuple[float, float]] = {
-    "fastest": (1.0, 0.0), "slowest": (0.0, 1.0), "fluctuation": (1.0, -1.0), "size": (1.0, -1.0),
-}  # fmt: skip
+    "fastest": (1.0, 0.0),
+    "slowest": (0.0, 1.0),
+    "fluctuation": (1.0, -1.0),
+    "size": (1.0, -1.0),
+}
 
 
 class SteadyDesigns:

@@ -72,10 +72,7 @@ class TorqueCurve(PlotMixin):
         x, y = np.atleast_1d(np.asarray(angle, dtype=float)), np.atleast_1d(np.asarray(torque, dtype=float))
         if x.shape != y.shape or x.ndim != 1 or len(x) < 2:
             raise LinkwrightError(
-                _(
-                    "a torque table needs as many torques as angles, two or more of each",
-                    code="running.bad_table",
-                )
+                _("a torque table needs as many torques as angles, two or more of each", code="running.bad_table")
             )
         if not (np.isfinite(x).all() and np.isfinite(y).all()):
             raise LinkwrightError(
@@ -83,10 +80,7 @@ class TorqueCurve(PlotMixin):
             )
         if (np.diff(x) < 0).any() or x[-1] - x[0] > period * (1 + 1e-12):
             raise LinkwrightError(
-                _(
-                    "the angles of a torque table must increase and lie within one period",
-                    code="running.table_order",
-                )
+                _("the angles of a torque table must increase and lie within one period", code="running.table_order")
             )
         if x[-1] - x[0] < period * (1 - 1e-12):
             x, y = np.append(x, x[0] + period), np.append(y, y[0])

@@ -18,23 +18,17 @@ Pair = tuple[Any, Any]
 Geometry = Literal["length", "bent", "coordinates", "drawing", "point"]
 
 LINK_FIELDS: Mapping[str, Field] = {
-    "points": LinkPoints(
-        required=True, doc=_("the link's points: [A, B], or {{A: [x, y], …}} in its own axes")
-    ),
+    "points": LinkPoints(required=True, doc=_("the link's points: [A, B], or {{A: [x, y], …}} in its own axes")),
     "length": Quantity("length", above=0, doc=_("distance from the first point to the second")),
-    "lengths": Quantities(
-        "length", count=2, above=0, doc=_("bent link: first to second, first to third point")
-    ),
+    "lengths": Quantities("length", count=2, above=0, doc=_("bent link: first to second, first to third point")),
     "angle": Quantity("angle", doc=_("bent link: angle from the first length to the second")),
     "also": Coordinates(doc=_("further points, by coordinates in the link's axes")),
     "mass": Quantity("mass", minimum=0, doc=_("mass (default 0)")),
     "inertia": Quantity("inertia", minimum=0, doc=_("moment of inertia about the mass centre (default 0)")),
-    "mass_centre": PlaceOrPoint(
-        "length", ("x", "y"), doc=_("mass centre: [x, y] or a point (default: midway)")
-    ),
+    "mass_centre": PlaceOrPoint("length", ("x", "y"), doc=_("mass centre: [x, y] or a point (default: midway)")),
 }
 FRAME_FIELDS: Mapping[str, Field] = {
-    "points": Coordinates(required=True, doc=_("fixed points: {{O1: [0 m, 0 m], …}}")),
+    "points": Coordinates(required=True, doc=_("fixed points: {{O1: [0 m, 0 m], …}}"))
 }
 
 
@@ -114,8 +108,7 @@ class Link:
         elif self.geometry == "bent":
             lengths = (value(f"{name}.lengths.0"), value(f"{name}.lengths.1"))
         moved = {
-            point: (float(x), float(y))
-            for point, (x, y) in local_points(self, value, math.cos, math.sin).items()
+            point: (float(x), float(y)) for point, (x, y) in local_points(self, value, math.cos, math.sin).items()
         }
         angle = value(f"{name}.angle") if self.geometry == "bent" else self.angle
         if name == "frame":
@@ -169,9 +162,7 @@ def second_point_address(link: Link, point: str) -> str:
     return by_geometry.get(link.geometry, f"{link.name}.{point}.x")
 
 
-def from_drawing(
-    points: Sequence[str], drawing: Mapping[str, tuple[float, float]]
-) -> dict[str, tuple[float, float]]:
+def from_drawing(points: Sequence[str], drawing: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
     """Coordinates in axes from the first point to the second, from those of an assembled drawing (m)."""
     origin, second = drawing[points[0]], drawing[points[1]]
     length = math.dist(origin, second)

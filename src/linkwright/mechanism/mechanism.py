@@ -158,12 +158,9 @@ class Mechanism(Frozen):
             links=_with(self.links, links),
             joints=_with(self.joints, joints),
             drivers=_with(
-                self.drivers,
-                {name: self.drivers[name].with_dimensions(value, parameters) for name in drivers},
+                self.drivers, {name: self.drivers[name].with_dimensions(value, parameters) for name in drivers}
             ),
-            loads=_with(
-                self.loads, {name: self.loads[name].with_dimensions(value) for name in renewed["load"]}
-            ),
+            loads=_with(self.loads, {name: self.loads[name].with_dimensions(value) for name in renewed["load"]}),
             gravity=(value("gravity.x"), value("gravity.y")),
             cycle=None if self.cycle is None else self.cycle.with_dimensions(value),
             parameters=_with(self.parameters, parameters),
@@ -197,16 +194,12 @@ class Mechanism(Frozen):
     @cached_property
     def pins(self) -> Mapping[str, TurningJoint]:
         """The joints about which links turn."""
-        return FrozenDict(
-            {name: each for name, each in self.joints.items() if isinstance(each, TurningJoint)}
-        )
+        return FrozenDict({name: each for name, each in self.joints.items() if isinstance(each, TurningJoint)})
 
     @cached_property
     def guides(self) -> Mapping[str, SlidingJoint]:
         """The joints along which blocks slide."""
-        return FrozenDict(
-            {name: each for name, each in self.joints.items() if isinstance(each, SlidingJoint)}
-        )
+        return FrozenDict({name: each for name, each in self.joints.items() if isinstance(each, SlidingJoint)})
 
     @cached_property
     def welds(self) -> Mapping[str, RigidJoint]:

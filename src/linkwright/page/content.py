@@ -51,9 +51,7 @@ def solved(machine: Mechanism | Document, steps: int) -> tuple[Motion, str | Non
 
 def page(models: Sequence[tuple[Motion, str | None]], language: str = "en") -> str:
     """The text of a page with machines side by side, each with its motion and the text of its file."""
-    name = ", ".join(
-        dict.fromkeys(in_language(motion.mechanism.name, language) for motion, _unused in models)
-    )
+    name = ", ".join(dict.fromkeys(in_language(motion.mechanism.name, language) for motion, _unused in models))
     title = _("{name}: living page", name=name).translate(language)
     return document(page_data(models, language), title, language)
 
@@ -117,11 +115,16 @@ def _machine(motion: Motion) -> DrawnMechanism:
 def _groups(programs: PagePrograms) -> list[Plain]:
     placed = programs.solver.motion.placed
     return [
-        {"name": each.name, "signature": each.signature, "links": list(each.links),
-         "facts": list(placed[each.name].facts), "wheels": _wheels(programs, each.links),
-         "dyad": row_name("quality", each.name) in programs.main.output_names}
+        {
+            "name": each.name,
+            "signature": each.signature,
+            "links": list(each.links),
+            "facts": list(placed[each.name].facts),
+            "wheels": _wheels(programs, each.links),
+            "dyad": row_name("quality", each.name) in programs.main.output_names,
+        }
         for each in programs.solver.structure.groups
-    ]  # fmt: skip
+    ]
 
 
 def _wheels(programs: PagePrograms, links: Sequence[str]) -> list[str]:
@@ -130,8 +133,7 @@ def _wheels(programs: PagePrograms, links: Sequence[str]) -> list[str]:
     return [
         name
         for name, joint in mechanism.joints.items()
-        if isinstance(contact_shape(joint, mechanism), Wheels | RackWay)
-        and not set(joint.joined).isdisjoint(links)
+        if isinstance(contact_shape(joint, mechanism), Wheels | RackWay) and not set(joint.joined).isdisjoint(links)
     ]
 
 

@@ -115,9 +115,16 @@ def _dimension(document: Document, address: str, value: float, geometry: bool) -
     declared = mechanism.declared(address)
     positive = declared is not None and all(declared.limit(each) is not None for each in (0.0, -1.0))
     return Dimension(
-        address, value, unit, factor_of(unit), how, positive, geometry,
-        moves(mechanism, address), how is None and address in drawn_dimensions(mechanism),
-    )  # fmt: skip
+        address,
+        value,
+        unit,
+        factor_of(unit),
+        how,
+        positive,
+        geometry,
+        moves(mechanism, address),
+        how is None and address in drawn_dimensions(mechanism),
+    )
 
 
 def drawn(document: Document, motion: Motion) -> Plain:
@@ -131,9 +138,7 @@ def drawn(document: Document, motion: Motion) -> Plain:
         if q is not None:
             away = away + np.abs(course - q)
             alone = q if course.min() <= q <= course.max() else None
-    places = [
-        (row_name("position", key), _plain(how), how.factor) for how, key in drawn_places(document).values()
-    ]
+    places = [(row_name("position", key), _plain(how), how.factor) for how, key in drawn_places(document).values()]
     return {
         "input": alone if len(positions.coordinates) == 1 else None,
         "at": int(np.argmin(away)),

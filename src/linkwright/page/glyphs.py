@@ -22,14 +22,7 @@ from linkwright.kinematics.names import canonical
 from linkwright.mechanism.link import Link
 from linkwright.page.contacts import CamContact, RackWay, Wheel, Wheels, contact_shape
 from linkwright.pictures.symbols.base import PIN, SYMBOLS, Shape
-from linkwright.plotting.drawing.guides import (
-    clear_shift,
-    ground_side,
-    input_arrows,
-    is_cylinder,
-    travel,
-    welds,
-)
+from linkwright.plotting.drawing.guides import clear_shift, ground_side, input_arrows, is_cylinder, travel, welds
 from linkwright.plotting.drawing.load_marks import Press, Turn, mark_of
 from linkwright.plotting.drawing.loads import named_points, pressing
 from linkwright.plotting.drawing.machine import DrawnMechanism, Part, bodies, flat, pins
@@ -93,25 +86,20 @@ def _guides(machine: DrawnMechanism) -> Iterator[Plain]:
             continue
         shift = clear_shift(machine, name, joint)
         if joint.guide == "frame":
-            yield {
-                "kind": "rail",
-                "layer": "ground",
-                **ends,
-                "shift": shift,
-                "side": ground_side(machine, joint),
-            }
+            yield {"kind": "rail", "layer": "ground", **ends, "shift": shift, "side": ground_side(machine, joint)}
         else:
             carried = len(machine.motion.mechanism.link(joint.guide).points) > 1
             reach = [key_of(machine, joint.guide, point) for point in joint.direction_points or ()]
             yield {
-                "kind": "rod", "layer": "bodies", **ends,
-                "reach": [*reach, *([through] if carried or joint.offset else [])], "tie": through,
-            }  # fmt: skip
+                "kind": "rod",
+                "layer": "bodies",
+                **ends,
+                "reach": [*reach, *([through] if carried or joint.offset else [])],
+                "tie": through,
+            }
         if shift:
             yield {"kind": "stub", "layer": "bodies", **ends, "shift": shift}
-        yield _stamp(
-            "blocks", ends["at"], row_name("guide_direction", name), SYMBOLS["slider"](), shift=shift
-        )
+        yield _stamp("blocks", ends["at"], row_name("guide_direction", name), SYMBOLS["slider"](), shift=shift)
 
 
 def _tube(machine: DrawnMechanism, name: str) -> Plain:
@@ -129,8 +117,13 @@ def _pins(machine: DrawnMechanism) -> Iterator[Plain]:
             ends = _ends(machine, machine.motion.mechanism.link(link)) if link != "frame" else None
             if ends and list(machine.motion.mechanism.link(link).points).index(name) not in ends:
                 keys = [key_of(machine, link, point) for point in machine.motion.mechanism.link(link).points]
-                yield {"kind": "passing", "layer": "tops", "at": name, "points": [keys[end] for end in ends],
-                       "length": 1.3 * PIN}  # fmt: skip
+                yield {
+                    "kind": "passing",
+                    "layer": "tops",
+                    "at": name,
+                    "points": [keys[end] for end in ends],
+                    "length": 1.3 * PIN,
+                }
 
 
 def _along(link: str) -> str | float:
@@ -170,27 +163,29 @@ class _Tracked:
         """Number of a wheel, and whether it is a new one."""
         at = key_of(self.machine, wheel.carrier, wheel.centre)
         for number, (known, glyph) in enumerate(self._wheels):
-            same = (known.link, glyph["at"], round(known.nominal, 9)) == (
-                wheel.link,
-                at,
-                round(wheel.nominal, 9),
-            )
+            same = (known.link, glyph["at"], round(known.nominal, 9)) == (wheel.link, at, round(wheel.nominal, 9))
             if same:
                 return number, False
         radius = None if wheel.radius is None else asdict(wheel.radius)
         glyph = {
-            "kind": "wheel", "layer": "ground", "link": wheel.link, "at": at, "along": _along(wheel.link),
-            "radius": radius, "toothed": wheel.toothed, "teeth": wheel.teeth, "inside": wheel.inside, **more,
-        }  # fmt: skip
+            "kind": "wheel",
+            "layer": "ground",
+            "link": wheel.link,
+            "at": at,
+            "along": _along(wheel.link),
+            "radius": radius,
+            "toothed": wheel.toothed,
+            "teeth": wheel.teeth,
+            "inside": wheel.inside,
+            **more,
+        }
         self._wheels.append((wheel, glyph))
         return len(self._wheels) - 1, True
 
     def _pair(self, wheels: Wheels) -> None:
         ends = [key_of(self.machine, each.carrier, each.centre) for each in wheels.pair]
         sizes = {"points": ends, "ratio": asdict(wheels.ratio)}
-        (a, a_new), (b, b_new) = (
-            self._wheel(each, **sizes, second=k == 1) for k, each in enumerate(wheels.pair)
-        )
+        (a, a_new), (b, b_new) = (self._wheel(each, **sizes, second=k == 1) for k, each in enumerate(wheels.pair))
         if wheels.wrapped:
             radii = [asdict(each.radius) for each in wheels.pair if each.radius is not None]
             crossed = wheels.ratio.value < 0
@@ -204,22 +199,38 @@ class _Tracked:
     def _rack(self, way: RackWay) -> None:
         """The pinion, and the rack as far as it is used."""
         number, _ = self._wheel(way.pinion)
-        self._after.append({
-            "kind": "rack", "layer": "ground", "link": way.rack, "along": _along(way.rack), "mesh": number,
-            "at": key_of(self.machine, way.rack, way.through), "inside": way.right, "turn": asdict(way.turn),
-        })  # fmt: skip
+        self._after.append(
+            {
+                "kind": "rack",
+                "layer": "ground",
+                "link": way.rack,
+                "along": _along(way.rack),
+                "mesh": number,
+                "at": key_of(self.machine, way.rack, way.through),
+                "inside": way.right,
+                "turn": asdict(way.turn),
+            }
+        )
 
     def _cam(self, contact: CamContact) -> Plain:
         """A cam by what its follower touches."""
         key = partial(key_of, self.machine)
         return {
-            "kind": "cam", "layer": "ground", "link": contact.cam, "along": _along(contact.cam),
-            "at": key(contact.cam, contact.centre), "trace": key(contact.follower, contact.at),
-            "follower": contact.follower, "carrier": contact.carrier, "touch": contact.touch,
-            "groove": contact.groove, "radius": asdict(contact.roller), "base": asdict(contact.base),
+            "kind": "cam",
+            "layer": "ground",
+            "link": contact.cam,
+            "along": _along(contact.cam),
+            "at": key(contact.cam, contact.centre),
+            "trace": key(contact.follower, contact.at),
+            "follower": contact.follower,
+            "carrier": contact.carrier,
+            "touch": contact.touch,
+            "groove": contact.groove,
+            "radius": asdict(contact.roller),
+            "base": asdict(contact.base),
             "side": contact.side,
             **({"joint": contact.guide} if contact.guide else {"tie": key(contact.follower, contact.pivot)}),
-        }  # fmt: skip
+        }
 
 
 def undrawn(machine: DrawnMechanism) -> list[str]:

@@ -25,9 +25,7 @@ def found_again(load: Load, motion: Motion) -> bool:
     magnitude = load.magnitude
     if magnitude.limits is None or not magnitude.has_formula:
         return magnitude.has_formula
-    return known_between(motion) and (
-        motion.positions.closed or MotionSignals(motion).full_cycle.period is None
-    )
+    return known_between(motion) and (motion.positions.closed or MotionSignals(motion).full_cycle.period is None)
 
 
 def traced_name(load: Load) -> str:
@@ -53,10 +51,13 @@ def _phase(load: Load, motion: Motion) -> Plain:
     part = phase.part if isinstance(phase, SwingPhase) else None
     return {
         "kind": "moving" if isinstance(phase, MovingPhase) else "stroke",
-        "rows": list(rows), "rate": rate, "second": second, "moving": moving_name(phase.output),
+        "rows": list(rows),
+        "rate": rate,
+        "second": second,
+        "moving": moving_name(phase.output),
         "ends": (phase.start, phase.end),
         "part": part and {"word": part.word, "amounts": [[a.value, a.share] for a in part.amounts]},
-    }  # fmt: skip
+    }
 
 
 def interval(load: Load) -> list[str]:

@@ -29,35 +29,33 @@ def positions(motion: Motion, arrays: Mapping[str, Floats], signs: Mapping[str, 
     along, mechanism = motion.positions, motion.mechanism
     modes = list(motion.modes)
     found: Plain = {
-        "count": along.count, "closed": along.closed, "period": along.period, "steady": None,
-        "drift": drift(motion), "modes": {name: float(signs[name]) for name in modes},
-    }  # fmt: skip
+        "count": along.count,
+        "closed": along.closed,
+        "period": along.period,
+        "steady": None,
+        "drift": drift(motion),
+        "modes": {name: float(signs[name]) for name in modes},
+    }
     drivers = list(mechanism.drivers.values())
     name = drivers[0].name if drivers else ""
-    tracked = {
-        "time",
-        "step",
-        "input",
-        *modes,
-        *(f"{kind}:{name}" for kind in ("cos", "sin", "slide", "turn")),
-    }
+    tracked = {"time", "step", "input", *modes, *(f"{kind}:{name}" for kind in ("cos", "sin", "slide", "turn"))}
     if len(drivers) == 1 and drivers[0].law.constant_speed is not None and tracked.issuperset(arrays):
         q = along.coordinates[name][0]
         step = float(q[1] - q[0]) if len(q) > 1 else 0.0
         found["steady"] = {
-            "driver": name, "turns": along.rotary[name], "start": float(q[0]), "step": step,
-            "speed": drivers[0].law.constant_speed, "begin": float(along.time[0]),
-        }  # fmt: skip
+            "driver": name,
+            "turns": along.rotary[name],
+            "start": float(q[0]),
+            "step": step,
+            "speed": drivers[0].law.constant_speed,
+            "begin": float(along.time[0]),
+        }
         arrays = {each: row for each, row in arrays.items() if each in modes}
     found["breaks"] = None if found["steady"] else breaks(motion)
     found["time"] = None if found["steady"] else packed(along.time)
     found["arrays"] = {name: packed(row) for name, row in arrays.items()}
     found["inputs"] = [
-        {
-            "name": each,
-            "turns": along.rotary[each],
-            "values": None if found["steady"] else packed(rows[0]),
-        }
+        {"name": each, "turns": along.rotary[each], "values": None if found["steady"] else packed(rows[0])}
         for each, rows in along.coordinates.items()
     ]
     return found

@@ -106,10 +106,14 @@ class PagePrograms:
         terms = self.forces.solver.friction.terms if self.forces is not None else ()
         joints = self.mechanism.joints
         return [
-            {**asdict(term), "field": term.field, "rate": _rate_of(term),
-             "on": [term.b] if term.b in joints[term.joint].joined[1:] else joints[term.joint].joined[1:]}
+            {
+                **asdict(term),
+                "field": term.field,
+                "rate": _rate_of(term),
+                "on": [term.b] if term.b in joints[term.joint].joined[1:] else joints[term.joint].joined[1:],
+            }
             for term in terms
-        ]  # fmt: skip
+        ]
 
     @property
     def bends(self) -> list[Plain]:
@@ -200,9 +204,7 @@ class PagePrograms:
             if link.mass
             for each in row_names("position", f"{name}.@centre")
         ]
-        names += [
-            row_name("fact", name, on=fact) for name, placed in motion.placed.items() for fact in placed.facts
-        ]
+        names += [row_name("fact", name, on=fact) for name, placed in motion.placed.items() for fact in placed.facts]
         outputs: dict[str, Scalar | bool] = {name: solver.outputs.value(name) for name in names}
         for name in self.mechanism.guides:
             outputs |= zip((row_name(kind, name) for kind in SLIDE), solver.outputs.slide(name), strict=True)
@@ -225,9 +227,7 @@ class PagePrograms:
         motion, terms = self.solver.motion, self.loaded.friction.terms
         found |= {_rate_of(term): traced_rate(motion, term) for term in terms}
         found |= {
-            moving_name(each): self._moving(each)
-            for load in self.found
-            for each in load.magnitude.phase.outputs
+            moving_name(each): self._moving(each) for load in self.found for each in load.magnitude.phase.outputs
         }
         fallible = self._numbers.fallible
         return {**found, SIZES: sum((self._size(name) for name in fallible), 0.0)} if fallible else found

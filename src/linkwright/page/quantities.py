@@ -88,10 +88,7 @@ def numbers(page: PagePrograms, known: Mapping[Output, Plain]) -> list[Plain]:
         if rotating and _returns_once(page.motion.read(output)):
             found.append(
                 _number(
-                    "ratio",
-                    known[output],
-                    _translated(_("quick-return ratio of {name}", name=output.owner)),
-                    "ratio",
+                    "ratio", known[output], _translated(_("quick-return ratio of {name}", name=output.owner)), "ratio"
                 )
             )
     for output, signal in known.items():
@@ -101,15 +98,17 @@ def numbers(page: PagePrograms, known: Mapping[Output, Plain]) -> list[Plain]:
 
 def _number(kind: str, signal: Plain, name: dict[str, str], quantity: str | None = None) -> Plain:
     return {
-        "id": f"{kind}:{signal['id']}", "kind": kind, "signal": signal["id"],
-        "quantity": quantity or signal["kind"], "name": name,
-    }  # fmt: skip
+        "id": f"{kind}:{signal['id']}",
+        "kind": kind,
+        "signal": signal["id"],
+        "quantity": quantity or signal["kind"],
+        "name": name,
+    }
 
 
 def _within(word: str, signal: Plain) -> dict[str, str]:
     return {
-        language: _EXTREMES[word].format(name=signal["name"][language]).translate(language)
-        for language in LANGUAGES
+        language: _EXTREMES[word].format(name=signal["name"][language]).translate(language) for language in LANGUAGES
     }
 
 
@@ -152,17 +151,13 @@ def point_keys(page: PagePrograms) -> list[Plain]:
     """All points with what they are: on the frame or moving, a joint or not."""
     frame = {canonical(page.mechanism, "frame", point) for point in page.mechanism.frame.points}
     keys = [*frame, *(key for key in page.solver.outputs.point_keys() if key not in frame)]
-    return [
-        {"key": key, "fixed": key in frame, "moved": moving_dimensions(page, key)} for key in sorted(keys)
-    ]
+    return [{"key": key, "fixed": key in frame, "moved": moving_dimensions(page, key)} for key in sorted(keys)]
 
 
 def moving_dimensions(page: PagePrograms, key: str) -> list[str]:
     """Dimensions that place a point on its links, in their order; parameters in place of what follows them."""
     mechanism, found = page.mechanism, dict[str, None]()
-    fixed = [
-        f"frame.{point}" for point in mechanism.frame.points if canonical(mechanism, "frame", point) == key
-    ]
+    fixed = [f"frame.{point}" for point in mechanism.frame.points if canonical(mechanism, "frame", point) == key]
     if fixed:
         return [each for axis in "xy" for each in _behind(page, f"{fixed[0]}.{axis}")]
     for name, link in mechanism.links.items():

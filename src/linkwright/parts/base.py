@@ -110,9 +110,7 @@ def _plain(value: Any, kind: Field | None = None) -> Any:
         return {key: _plain(each) for key, each in value.items()}
     if value is None or kind is None or is_dataclass(value):
         named = getattr(value, "label", None) or getattr(value, "text", None) or getattr(value, "name", None)
-        bare = (
-            {each.name: getattr(value, each.name) for each in fields(value)} if is_dataclass(value) else value
-        )
+        bare = {each.name: getattr(value, each.name) for each in fields(value)} if is_dataclass(value) else value
         return named or bare
     return kind.written(value)
 
@@ -139,9 +137,7 @@ class Result(PlotMixin, Numbers):
         for step in steps:
             step.items[:] = [
                 replace(item, result="0")
-                if isinstance(item, Equation)
-                and item.unit
-                and abs(item.value) <= ROUNDING * largest[item.unit]
+                if isinstance(item, Equation) and item.unit and abs(item.value) <= ROUNDING * largest[item.unit]
                 else item
                 for item in step.items
             ]

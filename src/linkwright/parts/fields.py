@@ -103,12 +103,7 @@ class Sample(Field):
 
 
 def _any(
-    reader: Reader,
-    node: Node,
-    place: Place,
-    factor: float,
-    kind: units.Dimension | None,
-    likely: Sequence[str] = (),
+    reader: Reader, node: Node, place: Place, factor: float, kind: units.Dimension | None, likely: Sequence[str] = ()
 ) -> tuple[float, units.Dimension] | None:
     """SI value and dimension of one value, of a ``likely`` dimension where it is of one; a bare number takes the unit
     of the complete list."""
@@ -127,9 +122,7 @@ def _any(
     return None if reader.within(value, node, place, *units.most(own)) is None else (value, own)
 
 
-def _likely(
-    text: str, likely: Sequence[str], reader: Reader
-) -> tuple[expressions.Expression, units.Dimension]:
+def _likely(text: str, likely: Sequence[str], reader: Reader) -> tuple[expressions.Expression, units.Dimension]:
     """The expression of a text and its dimension, the first of the ``likely`` ones that it can have."""
     for dimension in likely:
         with suppress(QuantityError):

@@ -123,9 +123,7 @@ def schema(kind: str) -> dict[str, Any]:
 
 def file_schema() -> dict[str, Any]:
     """JSON Schema of all files: models, tasks of synthesis, and calculations by the kind that they declare."""
-    of_kind = [
-        {"if": {"properties": {"kind": {"const": kind}}}, "then": _inner(schema(kind))} for kind in KINDS
-    ]
+    of_kind = [{"if": {"properties": {"kind": {"const": kind}}}, "then": _inner(schema(kind))} for kind in KINDS]
     kinds, model = {"enum": list(KINDS), "description": HEADING["kind"].doc}, _inner(json_schema())
     task = {key: model["properties"][key] for key in TASK_KEYS}
     return {
@@ -165,9 +163,7 @@ def read_calculation(
         return None, reader.findings
     owner = problem_class(kind)
     fields = {**HEADING, **owner.fields}
-    read_parameters(
-        reader, as_meant(mapping, [each.key or name for name, each in fields.items()]).get("parameters")
-    )
+    read_parameters(reader, as_meant(mapping, [each.key or name for name, each in fields.items()]).get("parameters"))
     values = reader.table(mapping, Place("", ""), fields)
     if values is None or reader.error_count:
         return None, reader.findings
@@ -183,13 +179,10 @@ def _kind(reader: Reader, root: MappingNode) -> str | None:
         return None
     message, remedy = (
         (
-            _(
-                "the file is the model of a machine; here a file with kind: is needed that says what is "
-                "calculated",
-            ),
+            _("the file is the model of a machine; here a file with kind: is needed that says what is calculated"),
             _(
                 "write one; kinds about a machine, such as tolerance, name its file as mechanism: "
-                "(examples: linkwright gallery)",
+                "(examples: linkwright gallery)"
             ),
         )
         if root.get("links") is not None
@@ -208,9 +201,13 @@ def _built(
     try:
         problem = owner.of_file(own, folder)
         problem = replace(
-            problem, purpose=values.get("purpose") or "", report=values.get("report") or {},
-            file_values=file_values, as_read=problem.attributes, warnings=tuple(reader.findings),
-        )  # fmt: skip
+            problem,
+            purpose=values.get("purpose") or "",
+            report=values.get("report") or {},
+            file_values=file_values,
+            as_read=problem.attributes,
+            warnings=tuple(reader.findings),
+        )
         found: Sequence[Finding] = problem.findings()
     except ModelError as error:
         problem, found = None, error.findings

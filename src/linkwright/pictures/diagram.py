@@ -31,16 +31,34 @@ else:  # matplotlib is imported when something is drawn
 
 #: Families that hold Chinese characters, the ones that look best first.
 CHINESE = (
-    "Noto Sans CJK SC", "Noto Sans SC", "Source Han Sans SC", "Source Han Sans CN", "Noto Sans CJK TC",
-    "Noto Sans CJK JP", "Noto Sans TC", "Source Han Sans", "Microsoft YaHei", "PingFang SC", "Hiragino Sans GB",
-    "WenQuanYi Micro Hei", "WenQuanYi Zen Hei", "SimHei", "Heiti SC", "Heiti TC", "Droid Sans Fallback",
-    "Arial Unicode MS", "Microsoft JhengHei", "AR PL UMing CN", "AR PL UKai CN", "SimSun",
-)  # fmt: skip
+    "Noto Sans CJK SC",
+    "Noto Sans SC",
+    "Source Han Sans SC",
+    "Source Han Sans CN",
+    "Noto Sans CJK TC",
+    "Noto Sans CJK JP",
+    "Noto Sans TC",
+    "Source Han Sans",
+    "Microsoft YaHei",
+    "PingFang SC",
+    "Hiragino Sans GB",
+    "WenQuanYi Micro Hei",
+    "WenQuanYi Zen Hei",
+    "SimHei",
+    "Heiti SC",
+    "Heiti TC",
+    "Droid Sans Fallback",
+    "Arial Unicode MS",
+    "Microsoft JhengHei",
+    "AR PL UMing CN",
+    "AR PL UKai CN",
+    "SimSun",
+)
 LATIN = "DejaVu Sans"
 REMEDY = _(
     "install one and try again, or name its folder on the command line, --fonts FOLDER "
     "(Debian, Ubuntu: apt-get install fonts-noto-cjk; Fedora: dnf install "
-    "google-noto-sans-cjk-fonts; Windows and macOS have one)",
+    "google-noto-sans-cjk-fonts; Windows and macOS have one)"
 )
 
 

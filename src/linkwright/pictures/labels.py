@@ -139,9 +139,7 @@ def candidates(label: Label) -> list[Candidate]:
                 gap = label.clearance + step
                 centre = (x + dx * (gap + width / 2 * abs(dx)), y + dy * (gap + height / 2 * abs(dy)))
                 liking = 0.6 * (dx < 0.2) + 0.6 * (dy > 0.2) + (_MAX_DISTANCE if label.along else 0.0)
-                found.append(
-                    Candidate(_box(centre, width, height), 0.45 * step + liking + 1.5 * order, (x, y), step)
-                )
+                found.append(Candidate(_box(centre, width, height), 0.45 * step + liking + 1.5 * order, (x, y), step))
     return found
 
 

@@ -105,8 +105,12 @@ class Line:
         return np.vstack([self.points, self.points[:1]]) if self.closed else self.points
 
     def __str__(self) -> str:
-        return str(element("path", {"class": f"{self.style} {self.fill}".rstrip(),
-                                    "d": path_data(self.points, closed=self.closed)}))  # fmt: skip
+        return str(
+            element(
+                "path",
+                {"class": f"{self.style} {self.fill}".rstrip(), "d": path_data(self.points, closed=self.closed)},
+            )
+        )
 
 
 @dataclass(frozen=True)
@@ -166,10 +170,7 @@ class Text:
         """The same scaled and shifted."""
         turn = self.turn if scale[0] * scale[1] > 0 else -self.turn
         return replace(
-            self,
-            at=_placed(np.asarray(self.at), shift, 0.0, scale),
-            size=self.size * abs(scale[0]),
-            turn=turn,
+            self, at=_placed(np.asarray(self.at), shift, 0.0, scale), size=self.size * abs(scale[0]), turn=turn
         )
 
     @property
@@ -188,9 +189,7 @@ class Text:
         start = -self.width * {"start": 0.0, "middle": 0.5, "end": 1.0}[self.anchor]
         low = -DESCENT * self.size - (0.25 * self.size if any(level < 0 for _, level in self.runs) else 0.0)
         high = self.height + (0.35 * self.size if any(level > 0 for _, level in self.runs) else 0.0)
-        corners = np.array(
-            [(start, low), (start + self.width, low), (start + self.width, high), (start, high)]
-        )
+        corners = np.array([(start, low), (start + self.width, low), (start + self.width, high), (start, high)])
         return _placed(corners, np.asarray(self.at), math.radians(self.turn))
 
     @property
@@ -205,11 +204,15 @@ class Text:
             turn = f"translate({number(x)} {number(y)}) scale({self.squeeze:.3f} 1)"
             x = y = 0.0
         attributes: dict[str, Attribute | None] = {
-            "class": self.style or None, "x": x, "y": y, "font-size": self.size,
+            "class": self.style or None,
+            "x": x,
+            "y": y,
+            "font-size": self.size,
             "text-anchor": None if self.anchor == "start" else self.anchor,
-            "font-style": "italic" if self.symbol else None, "transform": turn,
+            "font-style": "italic" if self.symbol else None,
+            "transform": turn,
             "xml:space": "preserve" if any(text != " ".join(text.split()) for text, _ in self.runs) else None,
-        }  # fmt: skip
+        }
         return str(element("text", attributes, *self._spans()))
 
     def _spans(self) -> Iterator[Element | str]:
@@ -296,9 +299,7 @@ class Picture:
         """A line of text; Chinese characters are not set smaller than TEXT."""
         if runs := as_runs(words):
             size = font_size(runs, height)
-            self.items.append(
-                Text(np.asarray(at, dtype=float), runs, "", size, anchor, turn, symbol, squeeze)
-            )
+            self.items.append(Text(np.asarray(at, dtype=float), runs, "", size, anchor, turn, symbol, squeeze))
 
     def add(self, other: Picture, shift: ArrayLike = (0.0, 0.0)) -> None:
         """All of another picture, shifted."""

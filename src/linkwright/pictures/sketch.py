@@ -78,9 +78,7 @@ class Sketch:
         for row, line in enumerate(lines, 1):
             self.text((left, bottom + 4.0 + 20.0 * row), name_runs(line), size=13.0)
 
-    def arrow(
-        self, start: Vec | Floats, end: Vec | Floats, style: str = "lw-force", *, dashed: bool = False
-    ) -> None:
+    def arrow(self, start: Vec | Floats, end: Vec | Floats, style: str = "lw-force", *, dashed: bool = False) -> None:
         """An arrow; ``dashed``: of what is not known yet."""
         shape = SYMBOLS["arrow"](start=vec(np.asarray(start)), end=vec(np.asarray(end)), style=style)
         self.add(shape, "lw-dashed" if dashed else "")
@@ -99,9 +97,7 @@ class Sketch:
             line = placed([(0.0, offset), (length, offset)], start, along)
             ends = (vec(line[0]), vec(line[1]))
             middle = vec(line.mean(axis=0))
-            self.labels.append(
-                Label(text, (middle,), "lw-value", 0.9 * LETTERS, 4.0, leader=False, along=ends)
-            )
+            self.labels.append(Label(text, (middle,), "lw-value", 0.9 * LETTERS, 4.0, leader=False, along=ends))
 
     def chain(self, places: Sequence[tuple[Vec, float]], say: Callable[[float], str], offset: float) -> None:
         """A chain of dimensions between places (on the paper, and as numbers) that follow each other."""

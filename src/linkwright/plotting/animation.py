@@ -56,10 +56,7 @@ def gif(frames: Iterator[bytes], seconds_per_frame: float) -> bytes:
         from PIL import Image
     except ImportError:
         raise LinkwrightError(
-            _(
-                'GIF animations need Pillow; install it with: pip install "linkwright[plot]"',
-                code="picture.gif_needs",
-            )
+            _('GIF animations need Pillow; install it with: pip install "linkwright[plot]"', code="picture.gif_needs")
         ) from None
     pictures = [Image.open(io.BytesIO(each)).convert("RGB") for each in frames]
     palette = Image.new("P", (1, 1))
@@ -67,9 +64,7 @@ def gif(frames: Iterator[bytes], seconds_per_frame: float) -> bytes:
     small = [each.quantize(palette=palette, dither=Image.Dither.NONE) for each in pictures]
     stream = io.BytesIO()
     duration = max(20, round(1000 * seconds_per_frame))
-    small[0].save(
-        stream, "GIF", save_all=True, append_images=small[1:], duration=duration, loop=0, optimize=False
-    )
+    small[0].save(stream, "GIF", save_all=True, append_images=small[1:], duration=duration, loop=0, optimize=False)
     return stream.getvalue()
 
 
@@ -102,9 +97,7 @@ def mp4(frames: Iterator[bytes], rate: int) -> bytes:
         track: Any = None
         for each in frames:
             picture = Image.open(io.BytesIO(each)).convert("RGB")
-            even = picture.crop(
-                (0, 0, picture.width - picture.width % 2, picture.height - picture.height % 2)
-            )
+            even = picture.crop((0, 0, picture.width - picture.width % 2, picture.height - picture.height % 2))
             if track is None:
                 track = container.add_stream("libx264", rate=rate)
                 track.width, track.height, track.pix_fmt = even.width, even.height, "yuv420p"
@@ -356,17 +349,14 @@ class Animation:
     @cached_property
     def _title(self) -> str:
         return _(
-            "Moving drawing of {name}",
-            name=in_language(self.scene.machine.motion.mechanism.name, self.language),
+            "Moving drawing of {name}", name=in_language(self.scene.machine.motion.mechanism.name, self.language)
         ).translate(self.language)
 
     @cached_property
     def _ink(self) -> list[Floats]:
         """Everything over the full motion."""
         ink = [line for index in self.run for line in self.scene.ink(index)]
-        ink += [
-            line for index in self.run for line in load_marks(self.scene.machine, index, forces=False).ink
-        ]
+        ink += [line for index in self.run for line in load_marks(self.scene.machine, index, forces=False).ink]
         view = self.scene.machine.view
         for arrows, scale in self.arrows:
             ink += [line for index in self.run for line in arrows.shape(index, view, scale).ink]

@@ -129,9 +129,7 @@ def draw_cam(design: CamDesign, angle: float = 0.0, language: str = "en") -> Dra
     require_language(language)
     cam = design.cam
     barrel = cam.barrel_radius is not None
-    walls = [
-        _turned(design.profile(720, k), 0.0 if barrel else cam.turn * angle) for k in range(len(cam.walls))
-    ]
+    walls = [_turned(design.profile(720, k), 0.0 if barrel else cam.turn * angle) for k in range(len(cam.walls))]
     if cam.conjugate is not None and not cam.follower.oscillating:
         walls[1] = -walls[1]
     follower = _follower(design, angle)
@@ -171,9 +169,7 @@ def _turned(places: Floats, angle: float) -> Floats:
     return np.asarray(places @ np.array([[c, s], [-s, c]]))
 
 
-def _frame(
-    sketch: Sketch, follower: dict[str, Floats], paper: Callable[[Floats], Floats], *, turns: bool
-) -> None:
+def _frame(sketch: Sketch, follower: dict[str, Floats], paper: Callable[[Floats], Floats], *, turns: bool) -> None:
     """Supports of the cam and of an oscillating follower, and the guide of a translating one."""
     if turns:
         sketch.put("fixed_pivot")
@@ -230,9 +226,7 @@ def _roller(sketch: Sketch, at: Floats, radius: float) -> None:
     sketch.circle(vec(at), 2.0, "lw-point")
 
 
-def _second(
-    sketch: Sketch, design: CamDesign, angle: float, paper: Callable[[Floats], Floats], scale: float
-) -> None:
+def _second(sketch: Sketch, design: CamDesign, angle: float, paper: Callable[[Floats], Floats], scale: float) -> None:
     """The second roller of a pair, rigid with the first."""
     wall = design.cam.walls[1]
     assert isinstance(wall, RollerCurve)
@@ -251,9 +245,7 @@ def _line(design: CamDesign, angle: float, language: str) -> str:
     degrees = number(angle, "angle")
     if cam.barrel_radius is not None:
         return _(
-            "unrolled, R = {radius} mm, φ = {angle}°",
-            radius=number(cam.barrel_radius, "length"),
-            angle=degrees,
+            "unrolled, R = {radius} mm, φ = {angle}°", radius=number(cam.barrel_radius, "length"), angle=degrees
         ).translate(language)
     radius = number((cam.base_radius or 0.0), "length")
     return _("base circle r = {radius} mm, φ = {angle}°", radius=radius, angle=degrees).translate(language)

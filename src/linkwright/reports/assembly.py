@@ -56,9 +56,7 @@ def _add_chapter(document: Document, part: Part, chapter: Chapter) -> None:
     shift, prefix = (1, f"{in_language(part.within, document.language)}: ") if part.within else (0, "")
     heading = Heading(own_words(chapter.title), 1, chapter.label)
     for block in chain([heading], _own(chapter.text, part.own, document, prefix + chapter.title)):
-        document.blocks += [
-            new for each in _parts_of(block, document) for new in _placed(each, shift, prefix)
-        ]
+        document.blocks += [new for each in _parts_of(block, document) for new in _placed(each, shift, prefix)]
 
 
 def _add_calculation(document: Document, part: Part, problem: Problem | TaskFile) -> None:

@@ -20,9 +20,7 @@ from linkwright.words import Message, Translate, _
 from linkwright.words.sentence import in_language
 
 #: Sections of machines' reports whose own text follows a heading of a calculation, by the heading.
-PLACES: Mapping[Message, str] = {
-    _("Purpose"): "task", _("Sketch"): "drawing", _("Solution"): "worked",
-}  # fmt: skip
+PLACES: Mapping[Message, str] = {_("Purpose"): "task", _("Sketch"): "drawing", _("Solution"): "worked"}
 #: Share of the page's width of a sketch, and its maximum height, mm.
 WIDE, TALLEST = 0.8, 90.0
 
@@ -53,9 +51,7 @@ def calculation(problem: Problem, own: Settings, say: Translate, language: str) 
         yield from errata_blocks(own.errata, in_language(own.source or problem.source, language), say)
 
 
-def _chapters(
-    problem: Problem, found: Result, own: Settings, say: Translate, language: str
-) -> Iterator[Block]:
+def _chapters(problem: Problem, found: Result, own: Settings, say: Translate, language: str) -> Iterator[Block]:
     """Heading, purpose, given data, sketch, solution and results."""
     yield Heading(literal(in_language(found.title, language)), 1)
     purpose, source = (
@@ -128,9 +124,7 @@ def _sketch(problem: Problem, say: Translate, language: str) -> Iterator[Block]:
     if drawn is not None:
         yield Heading(say(_("Sketch")), 2)
         yield Figure(
-            say(
-                _("Supports, loads and dimensions: {name}", name=literal(in_language(problem.name, language)))
-            ),
+            say(_("Supports, loads and dimensions: {name}", name=literal(in_language(problem.name, language)))),
             ((drawn.svg, WIDE),),
             tallest=TALLEST,
         )
@@ -153,6 +147,4 @@ def _pictures(found: Result, say: Translate, language: str) -> Iterator[Block]:
                 yield Paragraph(literal(error.say(language)), "missing")
             continue
         caption = f"{literal(in_language(found.title, language))}: {say(RESULT_DIAGRAMS[kind].title)}"
-        yield (
-            to_scale(say, caption, svg) if RESULT_DIAGRAMS[kind].to_scale else Figure(caption, ((svg, 0.75),))
-        )
+        yield (to_scale(say, caption, svg) if RESULT_DIAGRAMS[kind].to_scale else Figure(caption, ((svg, 0.75),)))

@@ -86,8 +86,10 @@ def noted(text: str) -> str:
 
 def strong(text: str) -> str:
     """Marked text in bold, its formulas as they are."""
-    return "".join(f"**{part}**" if part and part[0] not in f"${_NOTE}" else part
-                   for part in re.split(rf"(\$[^$]+\$|{_NOTE}[^{_NOTED}]*{_NOTED})", text))  # fmt: skip
+    return "".join(
+        f"**{part}**" if part and part[0] not in f"${_NOTE}" else part
+        for part in re.split(rf"(\$[^$]+\$|{_NOTE}[^{_NOTED}]*{_NOTED})", text)
+    )
 
 
 def shown(text: str) -> str:
@@ -317,11 +319,7 @@ class Numbers:
         block, before, after = (self.blocks[i : i + 1] for i in (index, max(index - 1, 0), index + 1))
         if not after or not isinstance(block[0], Paragraph) or len(block[0].text) >= SHORT:
             return False
-        return (
-            isinstance(before[0], Heading)
-            or isinstance(after[0], NUMBERED)
-            or block[0].text.endswith((":", "："))
-        )
+        return isinstance(before[0], Heading) or isinstance(after[0], NUMBERED) or block[0].text.endswith((":", "："))
 
     def before(self, index: int) -> str:
         """The number before the text of a heading."""
@@ -352,16 +350,10 @@ def _numbered_sources(blocks: Sequence[Block]) -> dict[str, int]:
     """Sources by number: those that are cited, in the order in which they are, then the others of the list."""
     known = {key for block in blocks if isinstance(block, Sources) for key, _ in block.entries}
     found = dict.fromkeys(
-        span.text
-        for block in blocks
-        for text in texts(block)
-        for span in spans(text)
-        if span.kind == "source"
+        span.text for block in blocks for text in texts(block) for span in spans(text) if span.kind == "source"
     )
     ordered = [key for key in found if key in known or not known]
-    ordered += [
-        key for block in blocks if isinstance(block, Sources) for key, _ in block.entries if key not in found
-    ]
+    ordered += [key for block in blocks if isinstance(block, Sources) for key, _ in block.entries if key not in found]
     return {key: number for number, key in enumerate(dict.fromkeys(ordered), 1)}
 
 
@@ -453,9 +445,7 @@ def plain(text: str) -> str:
 
 def longest_part(text: str) -> int:
     """Characters of the longest part of a text that does not break; a formula is one."""
-    joined = "".join(
-        "m" * round(2.6 * width(span.formula)) if span.formula else span.text for span in spans(text)
-    )
+    joined = "".join("m" * round(2.6 * width(span.formula)) if span.formula else span.text for span in spans(text))
     return max((cells(word) for word in joined.split(" ")), default=1)
 
 

@@ -291,11 +291,21 @@ class _Reader:
 
 
 _COMMANDS = {
-    "frac": _Reader._fraction, "dfrac": _Reader._fraction, "tfrac": _Reader._fraction, "cfrac": _Reader._fraction,
-    "binom": _Reader._binomial, "sqrt": _Reader._root, "mathrm": _Reader._name, "operatorname": _Reader._name,
-    "overset": _Reader._over, "stackrel": _Reader._over, "underset": _Reader._under, "xrightarrow": _Reader._arrow,
-    "left": _Reader._delimited, "begin": _Reader._matrix,
-}  # fmt: skip
+    "frac": _Reader._fraction,
+    "dfrac": _Reader._fraction,
+    "tfrac": _Reader._fraction,
+    "cfrac": _Reader._fraction,
+    "binom": _Reader._binomial,
+    "sqrt": _Reader._root,
+    "mathrm": _Reader._name,
+    "operatorname": _Reader._name,
+    "overset": _Reader._over,
+    "stackrel": _Reader._over,
+    "underset": _Reader._under,
+    "xrightarrow": _Reader._arrow,
+    "left": _Reader._delimited,
+    "begin": _Reader._matrix,
+}
 
 
 def _with_script(base: Node, token: str, part: Node) -> Node:

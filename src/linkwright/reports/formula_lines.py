@@ -116,9 +116,7 @@ def large(node: Node) -> bool:
 
 def relation(node: Node) -> bool:
     """Whether it is a sign between two sides."""
-    return (
-        isinstance(node, Atom) and node.kind == "sign" and node.text in ("=", "<", ">", *RELATIONS.values())
-    )
+    return isinstance(node, Atom) and node.kind == "sign" and node.text in ("=", "<", ">", *RELATIONS.values())
 
 
 def width(node: Node | None, size: float = 1.0) -> float:

@@ -15,31 +15,119 @@ from linkwright.words import Translate, _
 
 #: Symbols of single values, by key, or by kind and key where a kind has another one.
 SYMBOLS: Mapping[str, str] = {
-    "friction": "μ", "sliding_friction": "μ'", "wrap": "θ", "groove": "α", "tight": "T1", "slack": "T2",
-    "torque": "M", "radius": "r", "mass": "m", "speed": "v", "rotor.speed": "ω", "cam.speed": "ω",
-    "vibration.speed": "ω", "wedge.load": "Q", "angle": "α", "floor": "μf", "wall": "μw", "length": "L",
-    "modulus": "E", "section.modulus": "W", "strength": "Re", "density": "ρ", "second_moment": "I", "area": "A",
-    "safety": "S", "force": "F", "couple": "M", "line": "q", "at": "x", "from": "x1", "to": "x2",
-    "stiffness": "k", "damping": "c", "damping_ratio": "ζ", "stiffness_x": "kx", "stiffness_y": "ky",
-    "inertia": "J", "lift": "h", "rise_time": "T", "height": "h", "drag_coefficient": "c_w", "linear": "b",
-    "quadratic": "k", "gravity": "g", "incline": "α", "confidence": "1 − α", "base_radius": "r_b",
-    "roller_radius": "r_r", "offset": "e", "barrel_radius": "R", "width": "b", "load": "F_l", "preload": "F_0",
-    "pivot_distance": "c", "arm": "l", "pressure_angle": "α_max", "magnitude": "F", "size": "F", "unbalance": "U",
-    "frequency": "f", "duration": "T", "displacement": "x0", "velocity": "v0", "torsional_stiffness": "k_θ",
-    "settlement": "w0", "tolerance": "T", "clearance": "c", "lower": "L", "upper": "U", "about": "r0",
-    "belt.mass": "m", "forces.at": "r", "rigid_body.at": "r", "mounts.at": "r", "rotor.at": "z", "rotor.angle": "θ",
-    "trajectory.at": "φ", "program.from": "", "program.to": "", "cam.from": "", "cam.to": "", "cam.at": "",
-    "cam.velocity": "", "vibration.force": "F",
-}  # fmt: skip
+    "friction": "μ",
+    "sliding_friction": "μ'",
+    "wrap": "θ",
+    "groove": "α",
+    "tight": "T1",
+    "slack": "T2",
+    "torque": "M",
+    "radius": "r",
+    "mass": "m",
+    "speed": "v",
+    "rotor.speed": "ω",
+    "cam.speed": "ω",
+    "vibration.speed": "ω",
+    "wedge.load": "Q",
+    "angle": "α",
+    "floor": "μf",
+    "wall": "μw",
+    "length": "L",
+    "modulus": "E",
+    "section.modulus": "W",
+    "strength": "Re",
+    "density": "ρ",
+    "second_moment": "I",
+    "area": "A",
+    "safety": "S",
+    "force": "F",
+    "couple": "M",
+    "line": "q",
+    "at": "x",
+    "from": "x1",
+    "to": "x2",
+    "stiffness": "k",
+    "damping": "c",
+    "damping_ratio": "ζ",
+    "stiffness_x": "kx",
+    "stiffness_y": "ky",
+    "inertia": "J",
+    "lift": "h",
+    "rise_time": "T",
+    "height": "h",
+    "drag_coefficient": "c_w",
+    "linear": "b",
+    "quadratic": "k",
+    "gravity": "g",
+    "incline": "α",
+    "confidence": "1 − α",
+    "base_radius": "r_b",
+    "roller_radius": "r_r",
+    "offset": "e",
+    "barrel_radius": "R",
+    "width": "b",
+    "load": "F_l",
+    "preload": "F_0",
+    "pivot_distance": "c",
+    "arm": "l",
+    "pressure_angle": "α_max",
+    "magnitude": "F",
+    "size": "F",
+    "unbalance": "U",
+    "frequency": "f",
+    "duration": "T",
+    "displacement": "x0",
+    "velocity": "v0",
+    "torsional_stiffness": "k_θ",
+    "settlement": "w0",
+    "tolerance": "T",
+    "clearance": "c",
+    "lower": "L",
+    "upper": "U",
+    "about": "r0",
+    "belt.mass": "m",
+    "forces.at": "r",
+    "rigid_body.at": "r",
+    "mounts.at": "r",
+    "rotor.at": "z",
+    "rotor.angle": "θ",
+    "trajectory.at": "φ",
+    "program.from": "",
+    "program.to": "",
+    "cam.from": "",
+    "cam.to": "",
+    "cam.at": "",
+    "cam.velocity": "",
+    "vibration.force": "F",
+}
 _VALUE = re.compile(r"([-+−]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*)", re.DOTALL)
 #: Keys that the solution states as formulas.
 STATED = ("minimize", "maximize", "subject_to")
 #: Keys that hold things under names which the user chose.
 NAMED = (
-    "supports", "loads", "forces", "couples", "masses", "inertias", "planes", "springs", "dampers", "start", "mounts",
-    "samples", "tests", "regressions", "capability", "variables", "subject_to", "dimensions", "clearances",
-    "components", "angles", "parameters",
-)  # fmt: skip
+    "supports",
+    "loads",
+    "forces",
+    "couples",
+    "masses",
+    "inertias",
+    "planes",
+    "springs",
+    "dampers",
+    "start",
+    "mounts",
+    "samples",
+    "tests",
+    "regressions",
+    "capability",
+    "variables",
+    "subject_to",
+    "dimensions",
+    "clearances",
+    "components",
+    "angles",
+    "parameters",
+)
 
 
 def given_data(problem: Problem, say: Translate) -> Iterator[Block]:
@@ -90,9 +178,7 @@ def _by_name(kind: str, key: str, things: Mapping[str, Any], say: Translate) -> 
     return Table(caption, tuple(head), tuple(rows), "<" + "^" * len(columns))
 
 
-def _flat(
-    value: Any, path: tuple[str, ...] = (), *, bare: tuple[str, ...]
-) -> Iterator[tuple[tuple[str, ...], Any]]:
+def _flat(value: Any, path: tuple[str, ...] = (), *, bare: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], Any]]:
     """Values of a thing by their keys, those of mappings within it too; a single value as that of ``bare``."""
     if isinstance(value, Mapping):
         for key, each in value.items():
@@ -111,12 +197,7 @@ def _symbol(kind: str, path: tuple[str, ...]) -> str:
     """The symbol of a key, as a formula on a line; empty where it has none."""
     above = path[-2] if len(path) > 1 else kind
     return next(
-        (
-            SYMBOLS[each]
-            for each in (f"{above}.{path[-1]}", f"{kind}.{path[-1]}", path[-1])
-            if each in SYMBOLS
-        ),
-        "",
+        (SYMBOLS[each] for each in (f"{above}.{path[-1]}", f"{kind}.{path[-1]}", path[-1]) if each in SYMBOLS), ""
     )
 
 

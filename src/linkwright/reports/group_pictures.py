@@ -51,8 +51,11 @@ def _belongs(scene: Scene, part: Part, chosen: Group) -> bool:
     if part.layer not in ("pins", "blocks") or not part.shape.ink:
         return False
     machine = scene.machine
-    pins = [machine.local(part.carrier, c.joint) for c in chosen.joints
-            if c.joint in machine.pins and part.carrier in machine.pins[c.joint].joined]  # fmt: skip
+    pins = [
+        machine.local(part.carrier, c.joint)
+        for c in chosen.joints
+        if c.joint in machine.pins and part.carrier in machine.pins[c.joint].joined
+    ]
     cloud = part.shape.ink[0]
     middle = (cloud.min(axis=0) + cloud.max(axis=0)) / 2.0
     return any(abs(middle[0] - x) < 1.0 and abs(middle[1] - y) < 1.0 for x, y in pins)

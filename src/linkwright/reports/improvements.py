@@ -51,9 +51,7 @@ def improvements(motion: Motion, metrics: MetricsTable) -> list[Improvement]:
     """For the first number of force transmission that does not keep its limit, and for the peak of what an only
     driver supplies; none where there are no derivatives, or where they help little."""
     mechanism, output = motion.mechanism, main_output(motion)
-    rows = [
-        row for row in (_transmission(metrics), _effort(metrics, len(mechanism.links))) if row is not None
-    ]
+    rows = [row for row in (_transmission(metrics), _effort(metrics, len(mechanism.links))) if row is not None]
     lengths = [name for name in mechanism.dimensions() if name.endswith(".length") or ".lengths." in name]
     if not rows or not lengths or output.is_point:
         return []

@@ -178,11 +178,7 @@ class ReportContext:
         place = self.worked_place
         if place is None:
             return ""
-        return (
-            f"q = {self.input_text(place)}{self.input_unit}"
-            if self.mechanism.steady
-            else f"t = {place:.6g} s"
-        )
+        return f"q = {self.input_text(place)}{self.input_unit}" if self.mechanism.steady else f"t = {place:.6g} s"
 
     @property
     def worked_motion(self) -> tuple[Motion, int]:
@@ -220,8 +216,10 @@ class ReportContext:
             reached = np.unique(np.linspace(0, motion.steps - 1, count).round().astype(int))
             return Numbered(motion, tuple(int(i) for i in reached), None, output)
         start = float(motion.time[0]) if limit is None else limit.time
-        wanted = [float(motion.time[0]) + (start - float(motion.time[0]) + k * period / count) % period
-                  for k in range(count)]  # fmt: skip
+        wanted = [
+            float(motion.time[0]) + (start - float(motion.time[0]) + k * period / count) % period
+            for k in range(count)
+        ]
         denser, rows = with_times(motion, wanted)
         return Numbered(denser, tuple(rows), limit, output)
 
@@ -278,9 +276,7 @@ class ReportContext:
     @property
     def links_text(self) -> str:
         """The links with the numbers that stand in symbols."""
-        return self.say(
-            _("Links: {links}.", links=", ".join(numbered_links(self.heads.numbers, self.language)))
-        )
+        return self.say(_("Links: {links}.", links=", ".join(numbered_links(self.heads.numbers, self.language))))
 
     # pictures -----------------------------------------------------------------------------------
     def diagram(self, kind: str, source: object = None, **options: object) -> str:

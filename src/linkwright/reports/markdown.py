@@ -67,9 +67,7 @@ class Fault:
     code: str = ""
 
 
-def own_text(
-    text: str, level: int = 2, context: TextContext | None = None
-) -> Iterator[tuple[Block, list[Fault]]]:
+def own_text(text: str, level: int = 2, context: TextContext | None = None) -> Iterator[tuple[Block, list[Fault]]]:
     """The blocks of a text, each with what is wrong in it; its highest headings are of ``level``.
 
     After a first line ``typst`` it is Typst. Raises LinkwrightError where no reader of Markdown is installed.

@@ -100,9 +100,7 @@ def parts(
             for each in subjects:
                 yield from _calculated(each, own, asked) if isinstance(each, Calculation) else ()
         elif not _of_machine(head):
-            yield from (
-                [_part(own, cases, head)] if isinstance(head, Chapter) or cases or head == SOURCES else ()
-            )
+            yield from ([_part(own, cases, head)] if isinstance(head, Chapter) or cases or head == SOURCES else ())
         else:
             for each in subjects if between and number == machines[0] else cases:
                 if isinstance(each, Calculation):
@@ -115,9 +113,7 @@ def parts(
                 yield from _of_case(each, held, several=len(subjects) > 1)
 
 
-def _with_calculations(
-    entries: Sequence[Entry], subjects: Sequence[ReportContext | Calculation]
-) -> list[Entry]:
+def _with_calculations(entries: Sequence[Entry], subjects: Sequence[ReportContext | Calculation]) -> list[Entry]:
     """Entries with a place for calculations where no part of a machine has one: before the references."""
     found = list(entries)
     interleaved = any(isinstance(each, ReportContext) for each in subjects) and any(map(_of_machine, entries))

@@ -22,8 +22,7 @@ DOTS, SMALLEST, WIDEST, TEXT = 150.0, 0.25, 0.85, 6.69
 
 
 _NO_PICTURE = _(
-    'there is no picture "{name}" in {folder}; pictures are searched next to the model file',
-    code="report.no_picture",
+    'there is no picture "{name}" in {folder}; pictures are searched next to the model file', code="report.no_picture"
 )
 
 
@@ -83,20 +82,13 @@ def _drawing(content: bytes, name: str) -> str:
         text = content.decode("utf-8-sig")
         text = text[text.index("<svg") :]
         head = text[: text.index(">") + 1]
-        if not re.search(r'\swidth="[\d.]+(?:px)?"', head) or not re.search(
-            r'\sheight="[\d.]+(?:px)?"', head
-        ):
+        if not re.search(r'\swidth="[\d.]+(?:px)?"', head) or not re.search(r'\sheight="[\d.]+(?:px)?"', head):
             text = _sized(head) + text[len(head) :]
         png(text, width=64)
     except (ValueError, LinkwrightError) as error:
         message = error.sentence if isinstance(error, LinkwrightError) else str(error)
         raise LinkwrightError(
-            _(
-                'the picture "{name}" cannot be read: {message}',
-                code="report.bad_picture",
-                name=name,
-                message=message,
-            )
+            _('the picture "{name}" cannot be read: {message}', code="report.bad_picture", name=name, message=message)
         ) from None
     return text
 

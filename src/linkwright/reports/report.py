@@ -67,9 +67,7 @@ class Report:
             from linkwright.reports.word_pages import word
 
             if any(isinstance(block, Source) for block in walk(self.document.blocks)):
-                self._miss(
-                    _("Word files show texts in Typst as they are written").say(self.document.language)
-                )
+                self._miss(_("Word files show texts in Typst as they are written").say(self.document.language))
             return word(self.document)
         if ending == ".typ":
             from linkwright.reports.typst_pages import pages
@@ -148,9 +146,7 @@ def report(
     calculations = [each for each in subjects if isinstance(each, Calculation)]
     own = (cases or calculations)[0].settings
     entries = chosen(sections, own)
-    names = [
-        each.mechanism.name if isinstance(each, ReportContext) else each.title(language) for each in subjects
-    ]
+    names = [each.mechanism.name if isinstance(each, ReportContext) else each.title(language) for each in subjects]
     document = Document(
         own.title or " / ".join(dict.fromkeys(names)),
         speaker(language),
@@ -174,9 +170,7 @@ def _read(machines: Machine | Sequence[Machine], language: str) -> list[Subject]
     from linkwright.parts.file import kind_of
     from linkwright.parts.file import load as load_calculation
 
-    sources = (
-        list(machines) if isinstance(machines, Iterable) and not isinstance(machines, str) else [machines]
-    )
+    sources = list(machines) if isinstance(machines, Iterable) and not isinstance(machines, str) else [machines]
     if not sources:
         raise RequestError(_("a report needs a machine; name a model file", code="report.no_machine"))
     found: list[Subject] = []
@@ -213,9 +207,7 @@ def _cases(
             )
             continue
         if isinstance(each, TaskFile):
-            found.append(
-                Calculation(each, settings(each.report, language, None, _picture_folder(folder, each.file)))
-            )
+            found.append(Calculation(each, settings(each.report, language, None, _picture_folder(folder, each.file))))
             continue
         mechanism = each if isinstance(each, Mechanism) else load(str(each))
         mechanism = mechanism.translate(language)

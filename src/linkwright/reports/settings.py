@@ -44,9 +44,7 @@ MOST = 10_000
 SAYINGS: Sayings = {
     "where_list": Saying("not-a-list", lambda **others: _("give a list: [task, structure]")),
     "where_mapping": Saying("not-a-mapping", lambda **others: _("give keys with values")),
-    "where_text": Saying(
-        "not-a-text", lambda **others: _("a list or a mapping cannot be read here; write one text")
-    ),
+    "where_text": Saying("not-a-text", lambda **others: _("a list or a mapping cannot be read here; write one text")),
 }
 
 
@@ -206,13 +204,15 @@ class Settings:
     )
     errata: tuple[Erratum, ...] = file_key(Listed(Table.of(Erratum), doc=_("mistakes of the source")), ())
     cover: CoverWords | None = file_key(CoverField(COVER, doc=_("a cover of its own page")), None)
-    references: Mapping[str, str] = file_key(
-        Listed(Either(Line(), Table.of(OwnSource)), doc=_("own sources")), dict
-    )
+    references: Mapping[str, str] = file_key(Listed(Either(Line(), Table.of(OwnSource)), doc=_("own sources")), dict)
     positions: int | PositionList | None = file_key(
-        Listed(Either(Value(), Table({key: Value() for key in STEPPED})), alone=True,
-               doc=_("numbered positions of the tables")), None
-    )  # fmt: skip
+        Listed(
+            Either(Value(), Table({key: Value() for key in STEPPED})),
+            alone=True,
+            doc=_("numbered positions of the tables"),
+        ),
+        None,
+    )
     numbered_from: str = file_key(Line(doc=_("limit position that is number 1, such as rocker min")), "")
     fluctuation: float = file_key(COEFFICIENT, FLUCTUATION)
     folder: str = ""
@@ -228,18 +228,18 @@ class Settings:
 _KEYS = file_keys(Settings)
 #: Keys that can differ by language.
 OWN = {key: each for key, each in _KEYS.items() if key not in ("positions", "numbered_from", "fluctuation")}
-SECTION = Keys({
-    **_KEYS,
-    "en": Keys(OWN, doc=_("what an English report says instead")),
-    "zh": Keys(OWN, doc=_("what a Chinese report says instead")),
-}, own=SAYINGS)  # fmt: skip
+SECTION = Keys(
+    {
+        **_KEYS,
+        "en": Keys(OWN, doc=_("what an English report says instead")),
+        "zh": Keys(OWN, doc=_("what a Chinese report says instead")),
+    },
+    own=SAYINGS,
+)
 
 
 def settings(
-    section: Mapping[str, Any],
-    language: str = "en",
-    mechanism: Mechanism | None = None,
-    folder: str = "",
+    section: Mapping[str, Any], language: str = "en", mechanism: Mechanism | None = None, folder: str = ""
 ) -> Settings:
     """The settings of a file's ``report``, of a ``mechanism`` where what they name can be looked for in it.
 
@@ -282,14 +282,16 @@ class _Reading(SectionReading):
         self.position(merged.get("position", ""), places["position"])
         self.numbered(merged.get("numbered_from", ""))
         more = {key: tuple(each for each in merged.get(key, ()) if each) for key in ("sections", "errata")}
-        return Settings(**{
-            **merged,
-            **more,
-            "positions": self.positions(merged["positions"]) if "positions" in merged else None,
-            "cover": self.cover(merged, places["cover"]),
-            "references": sources,
-            "folder": self.folder,
-        })  # fmt: skip
+        return Settings(
+            **{
+                **merged,
+                **more,
+                "positions": self.positions(merged["positions"]) if "positions" in merged else None,
+                "cover": self.cover(merged, places["cover"]),
+                "references": sources,
+                "folder": self.folder,
+            }
+        )
 
     def texts(self, section: Mapping[str, Any], places: Mapping[str, str]) -> Iterator[tuple[str, str]]:
         """Own texts with their places."""
@@ -365,8 +367,7 @@ class _Reading(SectionReading):
         name, _unused, limit = text.partition(" ")
         if limit not in ("", *LIMITS):
             message = _(
-                '"{text}": numbers begin at the limit min or max of an output, not at "{limit}"; write '
-                '"{name} min"',
+                '"{text}": numbers begin at the limit min or max of an output, not at "{limit}"; write "{name} min"',
                 code="report.no_limit",
                 text=text,
                 limit=limit,

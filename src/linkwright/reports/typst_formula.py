@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-from linkwright.equations.notation import (
-    Accent,
-    Atom,
-    Bracket,
-    Fraction,
-    Limits,
-    Matrix,
-    Node,
-    Root,
-    Row,
-    Script,
-)
+from linkwright.equations.notation import Accent, Atom, Bracket, Fraction, Limits, Matrix, Node, Root, Row, Script
 from linkwright.equations.signs import ACCENTS, BRACES
 
 _ACCENTS = {
-    "dot": "dot", "ddot": "dot.double", "dddot": "dot.triple", "vec": "arrow", "overrightarrow": "arrow",
-    "bar": "macron", "hat": "hat", "widehat": "hat", "tilde": "tilde", "widetilde": "tilde",
-}  # fmt: skip
+    "dot": "dot",
+    "ddot": "dot.double",
+    "dddot": "dot.triple",
+    "vec": "arrow",
+    "overrightarrow": "arrow",
+    "bar": "macron",
+    "hat": "hat",
+    "widehat": "hat",
+    "tilde": "tilde",
+    "widetilde": "tilde",
+}
 _SPACES = {",": "thin", ":": "med", ";": "thick", " ": "med", "quad": "quad", "qquad": "wide"}
 _STYLES = {"bold": "bold(upright({}))", "slanted bold": "bold({})", "script": "cal({})", "double": "bb({})"}
 _ALIGN = {"<": "left", "^": "center", ">": "right"}
@@ -52,9 +49,7 @@ def typst(node: Node) -> str:
         case Accent("overline", inside):
             return f"#lw-overline($ {typst(inside)} $)"
         case Accent(mark, inside):
-            return (
-                f"{mark}({typst(inside)})" if mark in BRACES else f"accent({typst(inside)}, {_ACCENTS[mark]})"
-            )
+            return f"{mark}({typst(inside)})" if mark in BRACES else f"accent({typst(inside)}, {_ACCENTS[mark]})"
         case Bracket(inside, "(", ")"):
             return f"lr(({typst(inside)}))"
         case Bracket(inside, left, right):

@@ -44,10 +44,21 @@ LATIN = ("Libertinus Serif", "DejaVu Serif", "DejaVu Sans")
 MATHEMATICS, MONOSPACED = "New Computer Modern Math", "DejaVu Sans Mono"
 #: Families with Chinese characters, the one that reads best in print first.
 CHINESE = (
-    "Noto Serif CJK SC", "Source Han Serif SC", "Noto Serif SC", "Songti SC", "SimSun", "Noto Sans CJK SC",
-    "Source Han Sans SC", "Noto Sans SC", "PingFang SC", "Microsoft YaHei", "WenQuanYi Micro Hei",
-    "WenQuanYi Zen Hei", "Droid Sans Fallback", "AR PL UMing CN",
-)  # fmt: skip
+    "Noto Serif CJK SC",
+    "Source Han Serif SC",
+    "Noto Serif SC",
+    "Songti SC",
+    "SimSun",
+    "Noto Sans CJK SC",
+    "Source Han Sans SC",
+    "Noto Sans SC",
+    "PingFang SC",
+    "Microsoft YaHei",
+    "WenQuanYi Micro Hei",
+    "WenQuanYi Zen Hei",
+    "Droid Sans Fallback",
+    "AR PL UMing CN",
+)
 #: Families with the small pictures that people write among words.
 PICTURES = ("Noto Color Emoji", "Segoe UI Emoji", "Apple Color Emoji", "Twemoji", "Noto Emoji", "Symbola")
 #: Weight from which on a face is bold.
@@ -82,19 +93,13 @@ def compiled(document: Document, form: str) -> bytes:
         import typst as program
     except ImportError:
         raise LinkwrightError(
-            _(
-                'reports need typst; install it with: pip install "linkwright[report]"',
-                code="report.needs_typst",
-            )
+            _('reports need typst; install it with: pip install "linkwright[report]"', code="report.needs_typst")
         ) from None
     text, pictures = pages(document)
     output_format: Any = form
     try:
         found, warnings = program.compile_with_warnings(
-            text.encode(),
-            sys_inputs={**pictures, "form": form},
-            format=output_format,
-            font_paths=[*_folders()],
+            text.encode(), sys_inputs={**pictures, "form": form}, format=output_format, font_paths=[*_folders()]
         )
     except program.TypstError as error:
         raise LinkwrightError(
@@ -154,9 +159,7 @@ def typst_fault(text: str) -> str:
 
 def _styled(page: bytes, document: Document) -> bytes:
     """The page with its style, and a rule for every way in which columns of its tables are aligned."""
-    alignments = {
-        table.align or "<" * len(table.head) for table in walk(document.blocks) if isinstance(table, Table)
-    }
+    alignments = {table.align or "<" * len(table.head) for table in walk(document.blocks) if isinstance(table, Table)}
     rules = [
         f".{aligned_by(each)} :is(td,th):nth-child({i}){{text-align:{'right' if mark == '>' else 'center'}}}"
         for each in sorted(alignments)
@@ -238,9 +241,7 @@ class _Writer:
             title = f"#lw-title[{_words(document.title)}]\n"
             title += "".join(f"#lw-under[{_words(line)}]\n" for line in document.lines)
         contents = (
-            ""
-            if not document.contents
-            else f"#outline(title: [{_words(document.say(_('Contents')))}], depth: 2)\n"
+            "" if not document.contents else f"#outline(title: [{_words(document.say(_('Contents')))}], depth: 2)\n"
         )
         if document.contents and document.cover is not None:
             contents += "#if not lw-is-html { pagebreak(weak: true) }\n"
@@ -298,9 +299,7 @@ class _Writer:
         lines = []
         for key, text in dict(ordered).items():
             number = self.numbers.sources[key]
-            lines.append(
-                f"#lw-source([#box[{_words(f'[{number}]')}] <{_source(number)}>], [{self.inline(text)}])\n"
-            )
+            lines.append(f"#lw-source([#box[{_words(f'[{number}]')}] <{_source(number)}>], [{self.inline(text)}])\n")
         return "\n".join(lines)
 
     def _paragraph(self, block: Paragraph, *, sticky: bool) -> str:
@@ -331,9 +330,7 @@ class _Writer:
         head = ", ".join(f"strong[{self.inline(cell)}]" for cell in table.head)
         cells = ", ".join(f"[{self.inline(cell)}]" for row in table.rows for cell in row)
         caption = f"caption: {self._caption(index, table.caption)}" if table.caption else ""
-        parted = (
-            "#lw-need\n#[#show figure: set block(breakable: true)\n" if len(table.rows) > TOGETHER else "#["
-        )
+        parted = "#lw-need\n#[#show figure: set block(breakable: true)\n" if len(table.rows) > TOGETHER else "#["
         return (
             f"{parted}#figure(lw-table(({columns},), ({sides},), {name}, ({head},), {cells}), "
             "kind: table, numbering: none, supplement: none, "
@@ -344,9 +341,7 @@ class _Writer:
         found = [self._picture(svg, share, figure.tallest) for svg, share in figure.pictures]
         body = found[0] if len(found) == 1 else f"lw-pictures({', '.join(found)})"
         caption = f"caption: {self._caption(index, figure.caption)}" if figure.caption else ""
-        return (
-            f"#figure({body}, kind: image, numbering: none, supplement: none, {caption}) <{_place(index)}>\n"
-        )
+        return f"#figure({body}, kind: image, numbering: none, supplement: none, {caption}) <{_place(index)}>\n"
 
     def _picture(self, svg: str, share: float, tallest: float) -> str:
         name = f"picture{len(self.pictures)}"
@@ -384,9 +379,7 @@ class _Writer:
             found = f"#{command}[{found}]" if style in span.styles else found
         if not target:
             return found
-        return (
-            f"#link(<{target[1:]}>)[{found}]" if target[0] == "#" else f"#lw-url({quoted(target)}, [{found}])"
-        )
+        return f"#link(<{target[1:]}>)[{found}]" if target[0] == "#" else f"#lw-url({quoted(target)}, [{found}])"
 
 
 #: Styles in Typst.
@@ -397,9 +390,8 @@ def _emphasised(text: str) -> str:
     """A text in italics; Chinese characters, which have none, with dots below them."""
     parts = re.split(r"([\u2e80-\u9fff\uf900-\ufaff]+)", text)
     return "".join(
-        f"#lw-dots({quoted(part)});" if i % 2 else f"#emph[{_words(part)}]"
-        for i, part in enumerate(parts) if part
-    )  # fmt: skip
+        f"#lw-dots({quoted(part)});" if i % 2 else f"#emph[{_words(part)}]" for i, part in enumerate(parts) if part
+    )
 
 
 def _tight(listed: Listed) -> bool:
@@ -445,9 +437,7 @@ def _words(text: str) -> str:
 def breakable(text: str) -> str:
     """Zero-width spaces where a long name may break."""
     return re.sub(
-        r"[^\s\u2e80-\u9fff]{22,}",
-        lambda found: re.sub(r"([_.,/\\:;-]|\w{16}(?=\w))", "\\1\u200b", found[0]),
-        text,
+        r"[^\s\u2e80-\u9fff]{22,}", lambda found: re.sub(r"([_.,/\\:;-]|\w{16}(?=\w))", "\\1\u200b", found[0]), text
     )
 
 

@@ -5,34 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from linkwright.equations.notation import (
-    Accent,
-    Atom,
-    Bracket,
-    Fraction,
-    Limits,
-    Matrix,
-    Node,
-    Root,
-    Row,
-    Script,
-)
+from linkwright.equations.notation import Accent, Atom, Bracket, Fraction, Limits, Matrix, Node, Root, Row, Script
 from linkwright.equations.signs import ACCENTS, BRACES, INTEGRALS
 from linkwright.reports.formula_lines import large, relation
 
 SPACE = "http://schemas.openxmlformats.org/officeDocument/2006/math"
-_SPACES = {
-    ",": "\u2009",
-    ":": "\u2005",
-    ";": "\u2004",
-    " ": "\u2005",
-    "quad": "\u2003",
-    "qquad": "\u2003\u2003",
-}
+_SPACES = {",": "\u2009", ":": "\u2005", ";": "\u2004", " ": "\u2005", "quad": "\u2003", "qquad": "\u2003\u2003"}
 _STYLES = {
-    "bold": (("sty", "b"),), "slanted bold": (("sty", "bi"),), "script": (("scr", "script"), ("sty", "p")),
+    "bold": (("sty", "b"),),
+    "slanted bold": (("sty", "bi"),),
+    "script": (("scr", "script"), ("sty", "p")),
     "double": (("scr", "double-struck"), ("sty", "p")),
-}  # fmt: skip
+}
 _ALIGN = {"<": "left", "^": "center", ">": "right"}
 
 
@@ -99,8 +83,9 @@ def _row(items: Sequence[Node]) -> Iterator[Any]:
             applied.append(rest.pop(0))
         assert isinstance(own.base, Atom)
         place = "subSup" if own.base.text in INTEGRALS else "undOvr"
-        hidden = [_element(name, val="1") for name, part in (("subHide", own.below), ("supHide", own.above))
-                  if part is None]  # fmt: skip
+        hidden = [
+            _element(name, val="1") for name, part in (("subHide", own.below), ("supHide", own.above)) if part is None
+        ]
         look = _element("naryPr", _element("chr", val=own.base.text), _element("limLoc", val=place), *hidden)
         yield _element("nary", look, _part("sub", own.below), _part("sup", own.above), _part("e", *applied))
 
@@ -136,8 +121,7 @@ def _matrix(matrix: Matrix) -> Any:
     if aligned and number == 1:
         sides = ["left"]
     columns = [
-        _element("mc", _element("mcPr", _element("count", val="1"), _element("mcJc", val=each)))
-        for each in sides
+        _element("mc", _element("mcPr", _element("count", val="1"), _element("mcJc", val=each))) for each in sides
     ]
     gaps = [_element("cGpRule", val="3"), _element("cGp", val="0")] if aligned else []
     look = _element("mPr", *gaps, _element("mcs", *columns))

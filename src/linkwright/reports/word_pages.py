@@ -129,8 +129,11 @@ class _Writer:
 
         head = self.file.add_paragraph()
         head.add_run(self.document.say(_("Contents"))).bold = True
-        headings = [(i, block) for i, block in enumerate(self.numbers.blocks)
-                    if isinstance(block, Heading) and block.level <= LISTED]  # fmt: skip
+        headings = [
+            (i, block)
+            for i, block in enumerate(self.numbers.blocks)
+            if isinstance(block, Heading) and block.level <= LISTED
+        ]
         line = head
         for index, block in headings:
             line = self.file.add_paragraph()
@@ -298,9 +301,7 @@ class _Writer:
         line.paragraph_format.keep_with_next = bool(block.caption)
         for svg, share in block.pictures:
             wide = TEXT * min(share, 1.0)
-            picture = line.add_run().add_picture(
-                io.BytesIO(png(svg, width=int(wide * DOTS))), width=Inches(wide)
-            )
+            picture = line.add_run().add_picture(io.BytesIO(png(svg, width=int(wide * DOTS))), width=Inches(wide))
             tallest = Mm(block.tallest)
             if picture.height > tallest:
                 picture.width, picture.height = int(picture.width * tallest / picture.height), tallest
@@ -374,9 +375,7 @@ class _Writer:
         if target[0] == "#":
             attributes = {qn("w:anchor"): target[1:]}
         else:
-            attributes = {
-                qn("r:id"): self.file.part.relate_to(target, RELATIONSHIP_TYPE.HYPERLINK, is_external=True)
-            }
+            attributes = {qn("r:id"): self.file.part.relate_to(target, RELATIONSHIP_TYPE.HYPERLINK, is_external=True)}
             run.font.color.rgb, run.font.underline = RGBColor(0x0B, 0x57, 0xA4), True
         link = line._p.makeelement(qn("w:hyperlink"), attributes)
         link.append(run._r)
@@ -408,12 +407,10 @@ def _lines(block: Formula) -> list[Row]:
 def _widths(block: Table) -> list[float]:
     """Widths of columns, inches: as their longest parts ask for, together no wider than the text."""
     asked = [
-        GAP + LETTER * max(longest_part(row[i]) for row in (block.head, *block.rows))
-        for i in range(len(block.head))
+        GAP + LETTER * max(longest_part(row[i]) for row in (block.head, *block.rows)) for i in range(len(block.head))
     ]
     full = [
-        GAP + LETTER * max(cells(plain(row[i])) for row in (block.head, *block.rows))
-        for i in range(len(block.head))
+        GAP + LETTER * max(cells(plain(row[i])) for row in (block.head, *block.rows)) for i in range(len(block.head))
     ]
     spare = max(TEXT - sum(asked), 0.0)
     wanted = sum(w - a for w, a in zip(full, asked, strict=True) if w > a)

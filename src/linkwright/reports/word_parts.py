@@ -70,9 +70,7 @@ def ruled(line: Any) -> None:
     from docx.oxml.ns import nsdecls
 
     border = f"<w:pBdr {nsdecls('w')}>{_LINE.format('bottom', 6)}</w:pBdr>"
-    line._p.get_or_add_pPr().insert_element_before(
-        parse_xml(border), "w:shd", "w:tabs", "w:spacing", "w:ind", "w:jc"
-    )
+    line._p.get_or_add_pPr().insert_element_before(parse_xml(border), "w:shd", "w:tabs", "w:spacing", "w:ind", "w:jc")
 
 
 def add_cover(file: Any, cover: Cover) -> None:
@@ -163,9 +161,7 @@ def ruled_table(grid: Any, widths: list[float]) -> None:
 
     grid.alignment = WD_TABLE_ALIGNMENT.CENTER
     grid.autofit = False
-    borders = (
-        f"<w:tblBorders {nsdecls('w')}>{_LINE.format('top', 8)}{_LINE.format('bottom', 8)}</w:tblBorders>"
-    )
+    borders = f"<w:tblBorders {nsdecls('w')}>{_LINE.format('top', 8)}{_LINE.format('bottom', 8)}</w:tblBorders>"
     grid._tbl.tblPr.append(parse_xml(borders))
     for column, wide in zip(grid.columns, widths, strict=True):
         column.width = Inches(wide)

@@ -85,14 +85,7 @@ class Background:
 
 
 def _beginning(number: int, kind: str) -> Plain:
-    return {
-        "number": number,
-        "kind": kind,
-        "running": number > 0,
-        "candidates": [],
-        "sentence": "",
-        "done": [],
-    }
+    return {"number": number, "kind": kind, "running": number > 0, "candidates": [], "sentence": "", "done": []}
 
 
 def unexpected(error: Exception, language: str) -> str:

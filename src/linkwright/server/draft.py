@@ -69,9 +69,7 @@ class Draft(Document):
         links = self.section("links")
         found = links.get(name) if links is not None else None
         if not isinstance(found, MappingNode):
-            raise LinkwrightError(
-                _("there is no link {name!r} in the text", code="studio.no_link", name=name)
-            )
+            raise LinkwrightError(_("there is no link {name!r} in the text", code="studio.no_link", name=name))
         return found
 
     def put(self, section: str, key: str, value: Any) -> None:
@@ -172,9 +170,7 @@ def picture(text: str) -> Plain:
         points = link.get("points") if isinstance(link, MappingNode) else None
         names = [name for name, _unused in points] if isinstance(points, MappingNode) else texts(points)
         also = link.get("also") if isinstance(link, MappingNode) else None
-        links[name] = (
-            [*names, *(point for point, _unused in also)] if isinstance(also, MappingNode) else names
-        )
+        links[name] = [*names, *(point for point, _unused in also)] if isinstance(also, MappingNode) else names
     driver = draft.section("driver")
     turned = driver.get("turn") if driver is not None else None
     loads = [(name, load) for name, load in draft.section("loads") or () if isinstance(load, MappingNode)]
@@ -201,14 +197,15 @@ def _load(load: MappingNode) -> Plain:
         x, y = (amount(each, "force") for each in components) if components else (0.0, 0.0)
         angle = math.atan2(y, x) if components else amount(word(load, "direction"), "angle")
     ends = texts(load.get("between")) or texts(load.get("links"))
-    size = (
-        " ".join(filter(None, (word(load, key) for key in ("magnitude", "stiffness", "damping"))))
-        or components
-    )
+    size = " ".join(filter(None, (word(load, key) for key in ("magnitude", "stiffness", "damping")))) or components
     return {
-        "kind": word(load, "kind"), "on": word(load, "on"), "at": word(load, "at"), "angle": angle,
-        "ends": [end.split(".")[-1] for end in ends], "size": size if isinstance(size, str) else ", ".join(size),
-    }  # fmt: skip
+        "kind": word(load, "kind"),
+        "on": word(load, "on"),
+        "at": word(load, "at"),
+        "angle": angle,
+        "ends": [end.split(".")[-1] for end in ends],
+        "size": size if isinstance(size, str) else ", ".join(size),
+    }
 
 
 def completed(shown: Plain, motion: Motion) -> Plain:

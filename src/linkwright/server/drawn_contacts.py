@@ -49,9 +49,14 @@ def add_cam(draft: Draft, action: Mapping[str, Any]) -> None:
         raise LinkwrightError(_NO_CAM.format(cam=cam, at=at))
     roller = _nice(ROLLER * abs(away))
     entry: Plain = {
-        "kind": CamJoint.kind, "cam": cam, "follower": follower, "at": at, "touch": "roller",
-        "base_radius": _length(abs(away) - roller), "roller_radius": _length(roller),
-    }  # fmt: skip
+        "kind": CamJoint.kind,
+        "cam": cam,
+        "follower": follower,
+        "at": at,
+        "touch": "roller",
+        "base_radius": _length(abs(away) - roller),
+        "roller_radius": _length(roller),
+    }
     name, guide = _guide_of(draft, follower)
     pivot = _pin(shown, follower)
     arm = 0.0
@@ -70,8 +75,11 @@ def add_cam(draft: Draft, action: Mapping[str, Any]) -> None:
     up, above, down, below = (f"{each} deg" for each in LIFTING)
     law = {"law": "modified_sine"}
     entry["program"] = [
-        {"rise": lift, "over": up, **law}, {"dwell": above}, {"fall": lift, "over": down, **law}, {"dwell": below},
-    ]  # fmt: skip
+        {"rise": lift, "over": up, **law},
+        {"dwell": above},
+        {"fall": lift, "over": down, **law},
+        {"dwell": below},
+    ]
     draft.put_new("joints", "cam", entry)
 
 
@@ -106,9 +114,12 @@ def add_rack(draft: Draft, action: Mapping[str, Any]) -> None:
             )
         )
     entry = {
-        "kind": RackPair.kind, "pinion": pinion, "rack": rack, "through": through,
+        "kind": RackPair.kind,
+        "pinion": pinion,
+        "rack": rack,
+        "through": through,
         "radius": f"{number(1e3 * abs(gap.imag), 10)} mm",
-    }  # fmt: skip
+    }
     draft.put_new("joints", "rack", entry)
 
 

@@ -29,9 +29,7 @@ _FINEST = 1e-4
 _TEETH = re.compile(r"\s*([1-9][0-9]{0,5})\s*[:：]\s*([1-9][0-9]{0,5})\s*")
 
 
-_NO_SLOT = _(
-    "{name!r} is no link with two drawn points along which something could slide", code="studio.no_slot"
-)
+_NO_SLOT = _("{name!r} is no link with two drawn points along which something could slide", code="studio.no_slot")
 
 
 def edited(text: str, action: Mapping[str, Any]) -> tuple[str, str]:
@@ -130,9 +128,13 @@ def _slot(draft: Draft, action: Mapping[str, Any]) -> None:
     block = fresh("slider", list(shown["links"]))
     _put_link(draft, block, [at])
     entry = {
-        "kind": PrismaticJoint.kind, "guide": along, "through": ends[0], "direction": [ends[0], ends[-1]],
-        "block": block, "at": at,
-    }  # fmt: skip
+        "kind": PrismaticJoint.kind,
+        "guide": along,
+        "through": ends[0],
+        "direction": [ends[0], ends[-1]],
+        "block": block,
+        "at": at,
+    }
     if abs(across) >= _FINEST / 2:
         entry["offset"] = _coordinates([across])[0]
     draft.put_new("joints", "slot", entry)
@@ -162,9 +164,7 @@ def _mass(draft: Draft, action: Mapping[str, Any]) -> str:
     name, text = request.name(action, "link"), request.text(action, "mass").strip()
     mass = amount(text, "mass")
     if mass < 0:
-        raise LinkwrightError(
-            _("a mass cannot be negative: {text!r}", code="studio.negative_mass", text=text)
-        )
+        raise LinkwrightError(_("a mass cannot be negative: {text!r}", code="studio.negative_mass", text=text))
     before = draft.link(name)
     old_mass, old_inertia = _quantity(before.get("mass"), "mass"), before.get("inertia")
     draft.write_key(before, "mass", flow(text))
@@ -210,13 +210,9 @@ def _load(draft: Draft, action: Mapping[str, Any]) -> str:
     text = request.text(action, "force").strip()
     amount(text, "force")
     if at not in draft.shown()["links"].get(link, []):
-        raise LinkwrightError(
-            _("{link!r} has no point {name!r}", code="studio.no_point_on", name=at, link=link)
-        )
+        raise LinkwrightError(_("{link!r} has no point {name!r}", code="studio.no_point_on", name=at, link=link))
     angle = f"{number(round(request.number(action, 'angle'), 3))} deg"
-    draft.put_new("loads", "load", {
-        "kind": Force.kind, "on": link, "at": at, "direction": angle, "magnitude": text,
-    })  # fmt: skip
+    draft.put_new("loads", "load", {"kind": Force.kind, "on": link, "at": at, "direction": angle, "magnitude": text})
     return _(
         "{force} acts on {link} at {at}, in the direction {angle}.",
         code="studio.load_put",
@@ -228,7 +224,16 @@ def _load(draft: Draft, action: Mapping[str, Any]) -> str:
 
 
 _ACTIONS: dict[str, Callable[[Draft, Mapping[str, Any]], str | None]] = {
-    "point": _point, "link": _link, "driver": _driver, "guide": _guide, "mass": _mass, "load": _load,
-    "slot": _slot, "gear": _gear, "cam": add_cam, "rack": add_rack, "optimize": _optimize,
+    "point": _point,
+    "link": _link,
+    "driver": _driver,
+    "guide": _guide,
+    "mass": _mass,
+    "load": _load,
+    "slot": _slot,
+    "gear": _gear,
+    "cam": add_cam,
+    "rack": add_rack,
+    "optimize": _optimize,
     "remove": remove,
-}  # fmt: skip
+}

@@ -63,15 +63,11 @@ class Files:
         path = self.path(name)
         try:
             if path.is_dir():
-                raise LinkwrightError(
-                    _('"{path}" is a folder; name a file', code="file.is_folder", path=name)
-                )
+                raise LinkwrightError(_('"{path}" is a folder; name a file', code="file.is_folder", path=name))
             if not path.is_file():
                 return {"text": "", "version": ""}
             if path.stat().st_size > LARGEST:
-                raise LinkwrightError(
-                    _("the text is larger than {most} bytes", code="studio.large", most=LARGEST)
-                )
+                raise LinkwrightError(_("the text is larger than {most} bytes", code="studio.large", most=LARGEST))
             text = decode(path.read_bytes(), name)
         except OSError as problem:
             raise LinkwrightError(

@@ -154,11 +154,7 @@ def _renamed(draft: Draft, link: str, point: str) -> str:
 
 def _drawn(link: MappingNode) -> bool:
     """Whether the drawing gives a link's lengths."""
-    return (
-        isinstance(link.get("points"), Sequence)
-        and link.get("length") is None
-        and link.get("lengths") is None
-    )
+    return isinstance(link.get("points"), Sequence) and link.get("length") is None and link.get("lengths") is None
 
 
 def _points_of(link: MappingNode) -> Iterator[Scalar]:

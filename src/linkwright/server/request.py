@@ -17,9 +17,7 @@ T = TypeVar("T")
 FARTHEST, LARGEST, LONGEST = 1e6, 1e300, 200
 
 
-_BAD_REQUEST = _(
-    "the request is not a mapping in JSON with finite numbers; reload the page", code="studio.bad_body"
-)
+_BAD_REQUEST = _("the request is not a mapping in JSON with finite numbers; reload the page", code="studio.bad_body")
 
 
 class BadRequest(LinkwrightError):

@@ -91,10 +91,12 @@ def _shown(candidate: Candidate, target: np.ndarray) -> Plain:
     sent = drawn[:: max(1, len(drawn) // SENT)]
     return {
         "text": dump(candidate.mechanism(candidate.linkage.kind.replace("_", " "))),
-        "kind": candidate.linkage.kind, "links": len(candidate.linkage.links) + 1, "error": error,
+        "kind": candidate.linkage.kind,
+        "links": len(candidate.linkage.links) + 1,
+        "error": error,
         "transmission_angle": float(candidate.transmission_angle),
         "curve": [[float(each.real), float(each.imag)] for each in sent],
-    }  # fmt: skip
+    }
 
 
 def _distinct(ordered: list[Plain], most: int = 6) -> list[Plain]:

@@ -19,15 +19,13 @@ TEXTS = {
     "studio.take_theirs": _("Take its text"),
     "studio.keep_mine": _("Keep mine"),
     "studio.on_disk": _(
-        "The file on the disk has changed since it was opened; save under another name, or overwrite it.",
+        "The file on the disk has changed since it was opened; save under another name, or overwrite it."
     ),
     "studio.typed_meanwhile": _(
-        "The text was changed while that of the disk came, and is kept; take the disk's "
-        "again to put it in its place.",
+        "The text was changed while that of the disk came, and is kept; take the disk's again to put it in its place."
     ),
     "studio.there_already": _(
-        "{name} is there already, as a file or as an unsaved drawing; save under another "
-        "name, or overwrite it.",
+        "{name} is there already, as a file or as an unsaved drawing; save under another name, or overwrite it."
     ),
     "studio.overwrite": _("Overwrite"),
     "studio.draw": _("Draw"),
@@ -44,14 +42,14 @@ TEXTS = {
     "studio.help_select": _("Drag a point; a click on a load chooses it."),
     "studio.help_fixed": _("Click where the frame has a pivot."),
     "studio.help_link": _(
-        "Click two or more points, existing or new; Enter or the last point again ends, Escape drops it.",
+        "Click two or more points, existing or new; Enter or the last point again ends, Escape drops it."
     ),
     "studio.help_driver": _("Click a link that has a fixed point: it is driven about it."),
     "studio.help_guide": _("Click a point of a link, then where its guide leads."),
     "studio.help_mass": _("Click a link; it gets the mass {value} and the moment of inertia of an even bar."),
     "studio.help_load": _(
         "Click a link near one of its points, then where the force {value} points; a second "
-        "click on the point takes the next link of its pin.",
+        "click on the point takes the next link of its pin."
     ),
     "studio.help_remove": _("Click a link, a load, or a pin: the links of a pin come apart."),
     "studio.mobility": _("mobility {value}"),
@@ -60,9 +58,7 @@ TEXTS = {
     "studio.line": _("line {line}"),
     "studio.gone": _("The server does not answer; changes remain in this window until it does."),
     "studio.paper": _("Drawing paper"),
-    "studio.placed": _(
-        "{name} is where its lengths put it; change them in the text, or drag it under Run.",
-    ),
+    "studio.placed": _("{name} is where its lengths put it; change them in the text, or drag it under Run."),
     "studio.value": _("Value"),
     "studio.slot": _("Slot"),
     "studio.gear": _("Gears"),
@@ -72,10 +68,10 @@ TEXTS = {
     "studio.help_gear": _("Click two links with fixed points: they mesh, with {value} teeth."),
     "studio.help_curve": _(
         "Draw a curve with the pointer: linkages that draw it are searched for at once. It "
-        "is closed where it ends near its beginning.",
+        "is closed where it ends near its beginning."
     ),
     "studio.help_photo": _(
-        "Choose a picture; then click two points of it that are {value} apart, and it is to scale.",
+        "Choose a picture; then click two points of it that are {value} apart, and it is to scale."
     ),
     "studio.choose_photo": _("Choose a picture"),
     "studio.without_photo": _("Without the picture"),
@@ -91,11 +87,11 @@ TEXTS = {
     "studio.help_cam": _(
         "Click the link that turns as a cam, then a point of a link that slides or turns on "
         "the frame: a roller there is lifted by {value}. The base circle goes where the "
-        "roller is.",
+        "roller is."
     ),
     "studio.help_rack": _(
         "Click a link with a fixed point, then a link that slides: they mesh as pinion and "
-        "rack, with the pinion as large as it is drawn.",
+        "rack, with the pinion as large as it is drawn."
     ),
     "studio.optimize": _("Optimise"),
     "studio.vary": _("What varies"),
@@ -118,7 +114,7 @@ TEXTS = {
     "studio.help_optimize": _(
         "Choose dimensions with their ranges and a number; the file keeps the settings. "
         "Every design passes the full cycle in the assembly of the present one. The pointer "
-        "over a design shows its paths; taking one writes its dimensions into the file.",
+        "over a design shows its paths; taking one writes its dimensions into the file."
     ),
     "studio.beside": _("Compare with …"),
     "studio.without_beside": _("End the comparison"),

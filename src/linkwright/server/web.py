@@ -37,14 +37,10 @@ _POLICY = (
 )
 _BUILT = {"/studio.js": "text/javascript", "/studio.css": "text/css"}
 _BAD_REQUEST = _(
-    "the server does not understand this request; open the studio at the address that the terminal shows",
+    "the server does not understand this request; open the studio at the address that the terminal shows"
 )
-_NO_PAGE = _(
-    "there is nothing at this address; open the studio at the address that the terminal shows",
-)
-_NO_SECRET = _(
-    "the address lacks the secret of this studio; open it at the address that the terminal shows",
-)
+_NO_PAGE = _("there is nothing at this address; open the studio at the address that the terminal shows")
+_NO_SECRET = _("the address lacks the secret of this studio; open it at the address that the terminal shows")
 _HEADER = "X-Linkwright-Token"
 _LENGTH = re.compile(r"[0-9]{1,9}")
 
@@ -176,17 +172,14 @@ class _Handler(BaseHTTPRequestHandler):
 
     def _page(self) -> bytes:
         words = {
-            each: {key: text.translate(each) for key, text in (TEXTS | PAGE_TEXTS).items()}
-            for each in LANGUAGES
+            each: {key: text.translate(each) for key, text in (TEXTS | PAGE_TEXTS).items()} for each in LANGUAGES
         }
         data: dict[str, Any] = {
             "language": self.server.language,
             "words": words,
             "file": self.server.file,
             "models": [],
-            "symbols": {
-                name: "".join(map(str, SYMBOLS[name]().elements)) for name in ("fixed_pivot", "slider")
-            },
+            "symbols": {name: "".join(map(str, SYMBOLS[name]().elements)) for name in ("fixed_pivot", "slider")},
         }
         content = json.dumps(data, ensure_ascii=False).replace("<", "\\u003c")
         return (
@@ -200,10 +193,15 @@ class _Handler(BaseHTTPRequestHandler):
     def _send(self, status: int, body: bytes, kind: str) -> None:
         self.send_response(status)
         headers = {
-            "Content-Type": f"{kind}; charset=utf-8", "Content-Length": str(len(body)), "Cache-Control": "no-store",
-            "Content-Security-Policy": _POLICY, "Referrer-Policy": "no-referrer", "X-Frame-Options": "DENY",
-            "X-Content-Type-Options": "nosniff", "Cross-Origin-Resource-Policy": "same-origin",
-        }  # fmt: skip
+            "Content-Type": f"{kind}; charset=utf-8",
+            "Content-Length": str(len(body)),
+            "Cache-Control": "no-store",
+            "Content-Security-Policy": _POLICY,
+            "Referrer-Policy": "no-referrer",
+            "X-Frame-Options": "DENY",
+            "X-Content-Type-Options": "nosniff",
+            "Cross-Origin-Resource-Policy": "same-origin",
+        }
         for name, value in headers.items():
             self.send_header(name, value)
         with suppress(BrokenPipeError, ConnectionResetError):  # the page was closed meanwhile

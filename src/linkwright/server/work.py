@@ -39,18 +39,14 @@ class Work:
         self._solving = threading.Lock()
         self._foreseen: tuple[str, str, str, Plain] | None = None
         self.answers: Mapping[str, Callable[[Plain], Plain]] = {
-            "files": lambda asked: {
-                "files": files.names(), "drafts": files.unsaved(), "gallery": gallery_names()
-            },
+            "files": lambda asked: {"files": files.names(), "drafts": files.unsaved(), "gallery": gallery_names()},
             "open": self._open,
             "read": lambda a: {"text": self._read(a)},
             "keep": lambda a: files.keep(
                 text(a, "name"), text(a, "text"), text(a, "window"), int(number(a, "serial"))
             ),
             "state": lambda a: files.state(text(a, "name"), text(a, "window")),
-            "save": lambda a: files.save(
-                text(a, "name"), text(a, "text"), text(a, "version"), text(a, "draft")
-            ),
+            "save": lambda a: files.save(text(a, "name"), text(a, "text"), text(a, "version"), text(a, "draft")),
             "disk": lambda a: files.disk(text(a, "name")),
             "solve": lambda a: self._solve(text(a, "text"), language_of(a), self._folder(text(a, "name", ""))),
             "edit": self._edit,
@@ -63,7 +59,7 @@ class Work:
             "enough": lambda a: self.background.end(),
             "take": self._take,
             "set": lambda a: {"text": _changed(text(a, "text"), numbers(a, "values"))},
-        }  # fmt: skip
+        }
 
     def _open(self, asked: Plain) -> Plain:
         """A file; without a name what was drawn last and never saved, or with ``fresh`` a new one."""

@@ -9,17 +9,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import per_mm, significant
 from linkwright.pictures.labels import Name, put
-from linkwright.pictures.picture import (
-    MIN_TEXT,
-    Pen,
-    Picture,
-    Runs,
-    Words,
-    as_runs,
-    indexed,
-    joined,
-    round_up,
-)
+from linkwright.pictures.picture import MIN_TEXT, Pen, Picture, Runs, Words, as_runs, indexed, joined, round_up
 from linkwright.plotting.diagrams.axes import ANGLE_STEPS, InputAxis, Unit
 from linkwright.plotting.diagrams.panels import Panel as Plotted
 from linkwright.sheets.panel import Drawn, Panel, preferred
@@ -56,13 +46,7 @@ class CurvePanel(Panel):
     smallest, largest = 80.0, 180.0
 
     def __init__(
-        self,
-        name: str,
-        rank: float,
-        caption: Words,
-        symbols: tuple[Runs, Runs],
-        axis: InputAxis,
-        plotted: Plotted,
+        self, name: str, rank: float, caption: Words, symbols: tuple[Runs, Runs], axis: InputAxis, plotted: Plotted
     ) -> None:
         self.name, self.rank, self.caption, self.symbols = name, rank, caption, symbols
         self.axis, self.plotted, self.unit = axis, plotted, plotted.unit
@@ -136,9 +120,7 @@ class CurvePanel(Panel):
             picture.line([(place, -MARK if floor < -MARK else 0.0), (place, MARK)])
             if floor < 0:
                 picture.line([(place, floor), (place, floor - MARK)])
-            picture.text(
-                (place, floor - MARK - 1.0 - MIN_TEXT), significant(float(value)), MIN_TEXT, "middle"
-            )
+            picture.text((place, floor - MARK - 1.0 - MIN_TEXT), significant(float(value)), MIN_TEXT, "middle")
 
     def _up(self, picture: Picture, scale: float, ends: tuple[float, float], base: float) -> None:
         """The axis at the left with its numbers."""

@@ -13,18 +13,7 @@ from linkwright.drivers.base import Driver
 from linkwright.kinematics.names import canonical
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.pictures.labels import TO_UNITS, UNIT, Label, Name, put
-from linkwright.pictures.picture import (
-    MIN_TEXT,
-    Circle,
-    Fill,
-    Line,
-    Pen,
-    Picture,
-    Vec,
-    as_runs,
-    indexed,
-    joined,
-)
+from linkwright.pictures.picture import MIN_TEXT, Circle, Fill, Line, Pen, Picture, Vec, as_runs, indexed, joined
 from linkwright.pictures.symbols.base import SYMBOLS, vec
 from linkwright.plotting.drawing.loads import load_labels, load_marks
 from linkwright.plotting.drawing.machine import View, extent_of
@@ -35,12 +24,23 @@ from linkwright.words import _, pgettext
 
 #: Line and filling of the classes of drawings; those that are not named are thin and not filled.
 _STYLES: dict[str, tuple[Pen, Fill]] = {
-    "lw-bar": ("thick", ""), "lw-plate": ("thick", ""), "lw-block": ("thick", "paper"), "lw-pin": ("thin", "paper"),
-    "lw-mass-ring": ("thin", "paper"), "lw-point": ("thin", "ink"), "lw-weld": ("thin", "ink"),
-    "lw-mass": ("thin", "ink"), "lw-support": ("thin", "paper"), "lw-rim": ("thin", ""),
-    "lw-ground": ("thick", ""), "lw-strand": ("thick", ""), "lw-pitch": ("chain", ""), "lw-gear": ("thin", ""),
-    "lw-spring": ("thin", ""), "lw-load-ring": ("thin", "paper"),
-}  # fmt: skip
+    "lw-bar": ("thick", ""),
+    "lw-plate": ("thick", ""),
+    "lw-block": ("thick", "paper"),
+    "lw-pin": ("thin", "paper"),
+    "lw-mass-ring": ("thin", "paper"),
+    "lw-point": ("thin", "ink"),
+    "lw-weld": ("thin", "ink"),
+    "lw-mass": ("thin", "ink"),
+    "lw-support": ("thin", "paper"),
+    "lw-rim": ("thin", ""),
+    "lw-ground": ("thick", ""),
+    "lw-strand": ("thick", ""),
+    "lw-pitch": ("chain", ""),
+    "lw-gear": ("thin", ""),
+    "lw-spring": ("thin", ""),
+    "lw-load-ring": ("thin", "paper"),
+}
 #: Layers of which other positions of the machine show their lines.
 _OUTLINED = ("bodies", "blocks")
 
@@ -51,9 +51,7 @@ def draw_elements(picture: Picture, elements: Iterable[Line | Circle], style: st
         own, fill = _STYLES.get(each.style, ("thin", "ink" if each.style.endswith("-head") else ""))
         picture.items.append(
             replace(
-                each.placed(np.zeros(2), scale=vec(1.0 / TO_UNITS)),
-                style=style or own,
-                fill="" if style else fill,
+                each.placed(np.zeros(2), scale=vec(1.0 / TO_UNITS)), style=style or own, fill="" if style else fill
             )
         )
 
@@ -65,9 +63,7 @@ def draw_machine(picture: Picture, scene: Scene, index: int) -> None:
 
 def outline_machine(picture: Picture, scene: Scene, index: int, style: str) -> None:
     """The moving links at another position, by their lines alone."""
-    outlines = (
-        item for part, item in scene.items(index) if part.carrier != "frame" and part.layer in _OUTLINED
-    )
+    outlines = (item for part, item in scene.items(index) if part.carrier != "frame" and part.layer in _OUTLINED)
     draw_elements(picture, outlines, style)
 
 
@@ -176,8 +172,7 @@ class _Machine:
         """The paths of moving points, thin chain lines; each place once, the longest first."""
         tracks = [self.positions.track(key) * self.factor for key in self.motion.point_names()]
         spans = [
-            float(np.nanmax(np.ptp(track[np.isfinite(track).all(axis=1)], axis=0), initial=0.0))
-            for track in tracks
+            float(np.nanmax(np.ptp(track[np.isfinite(track).all(axis=1)], axis=0), initial=0.0)) for track in tracks
         ]
         order = sorted(range(len(tracks)), key=lambda k: -spans[k])
         drawn: list[Floats] = []
@@ -200,9 +195,7 @@ class _Machine:
         for driver in self.mechanism.drivers.values():
             if self.motion.positions.rotary[driver.name]:
                 at = np.array(machine.paper(driver.relative_to, driver.joint, self.main)) / TO_UNITS
-                yield Name(
-                    indexed("ω", str(numbers[driver.link])), [at], self.letters, clear=8.5, symbol=True
-                )
+                yield Name(indexed("ω", str(numbers[driver.link])), [at], self.letters, clear=8.5, symbol=True)
         yield from self._roman()
 
     def _roman(self) -> Iterator[Name]:
@@ -254,9 +247,7 @@ class _Machine:
         for number, place in good:
             self.found.circle(place, 0.7, fill="paper")
             out = (place - middle) / (float(np.hypot(*(place - middle))) or 1.0) if turning else np.zeros(2)
-            found.append(
-                Name(as_runs(str(number)), [place + 2.2 * out], MIN_TEXT, clear=0.6 if turning else 1.2)
-            )
+            found.append(Name(as_runs(str(number)), [place + 2.2 * out], MIN_TEXT, clear=0.6 if turning else 1.2))
         return found
 
 

@@ -86,9 +86,7 @@ def motion_table(positions: Positions) -> Iterator[TablePanel]:
             rows.append(_row(indexed("ω", str(number)), "rad/s", state.angular_velocity, positions))
             rows.append(_row(indexed("α", str(number)), "rad/s²", state.angular_acceleration, positions))
     if rows:
-        yield TablePanel(
-            "table_motion", 7.0, _head(positions), rows, words(_("Velocities and accelerations"))
-        )
+        yield TablePanel("table_motion", 7.0, _head(positions), rows, words(_("Velocities and accelerations")))
 
 
 def force_table(positions: Positions) -> Iterator[TablePanel]:

@@ -88,8 +88,7 @@ def block_of(name: str, drawn: Drawn, caption: float = CAPTION) -> Block:
     """A drawn panel with its caption, as one picture; ``caption``: height of its first line."""
     inner = drawn.picture.bounds
     heights = [
-        caption if number == 0 else (TEXT if caption > TEXT else MIN_TEXT)
-        for number in range(len(drawn.caption))
+        caption if number == 0 else (TEXT if caption > TEXT else MIN_TEXT) for number in range(len(drawn.caption))
     ]
     widths = [runs_width(line, height) for line, height in zip(drawn.caption, heights, strict=True)]
     wide = max([inner.width, *widths])

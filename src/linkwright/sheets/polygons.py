@@ -14,11 +14,7 @@ from linkwright.mechanism.force_names import link_numbers
 from linkwright.pictures.labels import Name, put
 from linkwright.pictures.picture import MIN_TEXT, Picture, as_runs, indexed, joined
 from linkwright.plotting.diagrams.motion_polygons import arrows, gathered
-from linkwright.plotting.diagrams.motion_vectors import (
-    MotionPolygon,
-    acceleration_polygon,
-    velocity_polygon,
-)
+from linkwright.plotting.diagrams.motion_vectors import MotionPolygon, acceleration_polygon, velocity_polygon
 from linkwright.plotting.diagrams.names import LOW
 from linkwright.plotting.diagrams.scaled_page import SHARES, SHORT, corners, end_to_end
 from linkwright.plotting.free_bodies.actions import Action
@@ -174,9 +170,7 @@ class ForcePanel(ScaledPanel):
         words, number = self.positions.subject.words, link_numbers(self.positions.mechanism)[self.link]
         if len(self.positions.shown) < 2:
             return words(_("Force polygon of link {link}", link=number))
-        return words(
-            _("Force polygon of link {link}, position {number}", link=number, number=self.shown.number)
-        )
+        return words(_("Force polygon of link {link}, position {number}", link=number, number=self.shown.number))
 
     def picture(self, scale: float) -> Picture:
         found = Picture()

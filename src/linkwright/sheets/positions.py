@@ -66,10 +66,7 @@ class Positions:
         start, span = float(reached[0]), float(reached[-1] - reached[0])
         period = motion.positions.period
         if period is not None and motion.ok.all():
-            return [
-                first,
-                float(motion.time[0]) + (first - float(motion.time[0]) + self._half(period)) % period,
-            ]
+            return [first, float(motion.time[0]) + (first - float(motion.time[0]) + self._half(period)) % period]
         return [first, start + (2 / 3) * span] if span else [first]
 
     @cached_property
@@ -104,10 +101,7 @@ class Positions:
         for row in rows:
             if not motion.ok[row]:
                 self.subject.note(
-                    _(
-                        "A position of the sheet is not reached: {sentence}",
-                        sentence=motion.outcomes[row].sentence,
-                    )
+                    _("A position of the sheet is not reached: {sentence}", sentence=motion.outcomes[row].sentence)
                 )
         reached = [row for row in dict.fromkeys(rows) if motion.ok[row]]
         return [Shown(number, row) for number, row in zip(ROMAN, reached, strict=False)]

@@ -64,9 +64,15 @@ SHEETS: Registry[Kind] = Registry(_("kind of sheet"), "linkwright.sheets.kinds")
 #: Keys of the report's section, and of its cover, that a title block falls back on.
 _OF_REPORT = {"title": "title", "student": "author", "date": "date", "faculty": "course"}
 _OF_COVER = {
-    "title": "title", "school": "school", "faculty": "faculty", "class": "class", "student_number": "number",
-    "student": "author", "adviser": "adviser", "date": "date",
-}  # fmt: skip
+    "title": "title",
+    "school": "school",
+    "faculty": "faculty",
+    "class": "class",
+    "student_number": "number",
+    "student": "author",
+    "adviser": "adviser",
+    "date": "date",
+}
 
 
 @dataclass(frozen=True)

@@ -124,12 +124,7 @@ def sheet(
     require_language(language)
     if size is not None and size not in SIZES:
         raise RequestError(
-            _(
-                'paper size "{size}" does not exist; use {sizes}',
-                code="sheet.bad_size",
-                size=size,
-                sizes=tuple(SIZES),
-            )
+            _('paper size "{size}" does not exist; use {sizes}', code="sheet.bad_size", size=size, sizes=tuple(SIZES))
         )
     drawn, own = _sources(machine)
     if section is not None:
@@ -171,9 +166,7 @@ def _sources(machine: Mechanism | Problem | str | Path) -> tuple[Mechanism | Pro
 class _Drawer:
     """Draws panels at shares of their size ranges, each picture once."""
 
-    def __init__(
-        self, panels: Mapping[str, Panel], placed: Mapping[str, Placed], room: Box, caption: float
-    ) -> None:
+    def __init__(self, panels: Mapping[str, Panel], placed: Mapping[str, Placed], room: Box, caption: float) -> None:
         self.panels, self.placed, self.room, self.caption = panels, placed, room, caption
         for panel in panels.values():
             panel.letters = min(panel.letters, MIN_TEXT) if caption < CAPTION else panel.letters
@@ -206,8 +199,7 @@ def _composed(subject: Subject, content: Content, kind: str, name: str) -> Sheet
     if layout.left_out:
         subject.note(
             _(
-                "{size} has no room for: {names}. Take a larger size, or leave other panels out with "
-                "`leave_out`.",
+                "{size} has no room for: {names}. Take a larger size, or leave other panels out with `leave_out`.",
                 size=paper.size,
                 names=layout.left_out,
             )
@@ -218,9 +210,7 @@ def _composed(subject: Subject, content: Content, kind: str, name: str) -> Sheet
     blocks = {**{key: draw(key, 1.0) for key in fixed}, **layout.blocks}
     for key, box in places.items():
         picture.add(blocks[key].picture, (box.left, box.bottom))
-    scale = next(
-        (blocks[key].scale for key in panels if key in blocks and blocks[key].scale), content.scale()
-    )
+    scale = next((blocks[key].scale for key in panels if key in blocks and blocks[key].scale), content.scale())
     picture.add(_block(subject, kind, scale).picture(), (corner.left, corner.bottom))
     return Sheet(paper, name, picture, places, corner, scale, tuple(subject.notes))
 
@@ -276,16 +266,18 @@ def _refuse_outside(fixed: Mapping[str, Box], inner: Box) -> None:
     """Raises LinkwrightError for a panel that the file places across the frame."""
     for name, box in fixed.items():
         if not inner.holds(box):
-            raise LinkwrightError(_(
-"sheet.panels.{name}: the panel, {width} mm × {height} mm with its caption, crosses "
-"the frame, which reaches from ({left}; {bottom}) to ({right}; {top}) mm; change "
-"`at`, or make it smaller with `size`",
-code="sheet.outside",
-name=name,
-width=round(box.width),
-height=round(box.height),
-left=round(inner.left),
-bottom=round(inner.bottom),
-right=round(inner.right),
-top=round(inner.top),
-))  # fmt: skip
+            raise LinkwrightError(
+                _(
+                    "sheet.panels.{name}: the panel, {width} mm × {height} mm with its caption, crosses "
+                    "the frame, which reaches from ({left}; {bottom}) to ({right}; {top}) mm; change "
+                    "`at`, or make it smaller with `size`",
+                    code="sheet.outside",
+                    name=name,
+                    width=round(box.width),
+                    height=round(box.height),
+                    left=round(inner.left),
+                    bottom=round(inner.bottom),
+                    right=round(inner.right),
+                    top=round(inner.top),
+                )
+            )

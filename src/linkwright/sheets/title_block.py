@@ -96,9 +96,7 @@ def fitted(text: str, width: float, room: float, letters: float) -> tuple[list[s
         return [fitted(part, width, 1.3 * min(heights), min(heights))[0][0] for part in parts], min(heights)
     minimum = TEXT if needs_chinese(text) else MIN_TEXT
     width /= 0.7 if needs_chinese(text) else 1.0
-    heights = [
-        each for each in (letters, 7.0, 5.0, TEXT, MIN_TEXT) if minimum <= each <= max(letters, minimum)
-    ]
+    heights = [each for each in (letters, 7.0, 5.0, TEXT, MIN_TEXT) if minimum <= each <= max(letters, minimum)]
     for height in heights:
         if runs_width(as_runs(text), height) <= width and height <= room:
             return [text], height
@@ -165,16 +163,12 @@ def _gb_rest(fields: Fields, say: Translate) -> Iterator[Cell]:
         yield Cell(80 + 6.5 * k, 35, 6.5, 12)
     yield Cell(106, 35, 12, 12)
     yield Cell(118, 35, 12, 12, fields.scale, 3.5)
-    yield Cell(
-        80, 47, 50, 9, say(_("Sheet {sheet} of {sheets}", sheet=fields.sheet, sheets=fields.sheets)), 3.5
-    )
+    yield Cell(80, 47, 50, 9, say(_("Sheet {sheet} of {sheets}", sheet=fields.sheet, sheets=fields.sheets)), 3.5)
     yield Cell(80, 28, 50, 28, thick=True)
     yield Cell(130, 0, 50, 18, _joined(fields.school, fields.faculty), 5.0, thick=True)
     yield Cell(130, 18, 50, 20, fields.drawing, 7.0, thick=True)
     yield Cell(130, 38, 50, 9, fields.number or fields.student_number, 5.0, thick=True)
-    yield Cell(
-        130, 47, 50, 9, _joined(fields.class_name, fields.student_number if fields.number else ""), thick=True
-    )
+    yield Cell(130, 47, 50, 9, _joined(fields.class_name, fields.student_number if fields.number else ""), thick=True)
 
 
 def school_block(fields: Fields, say: Translate) -> TitleBlock:
@@ -195,11 +189,7 @@ def school_block(fields: Fields, say: Translate) -> TitleBlock:
     )
     for row, (head, name, date) in enumerate(people):
         y = 16.0 + 8.0 * row
-        cells += [
-            Cell(0, y, 18, 8, say(head)),
-            Cell(18, y, 22, 8, name),
-            Cell(40, y, 20, 8, date),
-        ]
+        cells += [Cell(0, y, 18, 8, say(head)), Cell(18, y, 22, 8, name), Cell(40, y, 20, 8, date)]
     cells += [
         Cell(60, 16, 80, 8, fields.title, 5.0),
         Cell(60, 24, 80, 8, _joined(fields.school, fields.faculty), 5.0),

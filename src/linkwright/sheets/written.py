@@ -15,11 +15,7 @@ from linkwright.pictures.svg.element import FAMILY_LIST, element, number
 from linkwright.sheets.paper import Paper
 
 #: Dashes and gaps of the kinds of lines in widths of a thin line (GB/T 17450, shortened for small pictures).
-DASHES = {
-    "dashed": (12.0, 3.0),
-    "chain": (24.0, 3.0, 0.5, 3.0),
-    "double_chain": (24.0, 3.0, 0.5, 3.0, 0.5, 3.0),
-}
+DASHES = {"dashed": (12.0, 3.0), "chain": (24.0, 3.0, 0.5, 3.0), "double_chain": (24.0, 3.0, 0.5, 3.0, 0.5, 3.0)}
 
 
 def width_of(pen: str, paper: Paper) -> float:
@@ -66,8 +62,14 @@ def _dash(pen: str, paper: Paper) -> str:
 
 
 #: Layers with their colour (7: black or white, as the ground demands), type of line and pattern, mm.
-_TYPES = {"frame": "CONTINUOUS", "thick": "CONTINUOUS", "thin": "CONTINUOUS", "dashed": "SHEET_DASHED",
-          "chain": "SHEET_CHAIN", "double_chain": "SHEET_DOUBLE_CHAIN"}  # fmt: skip
+_TYPES = {
+    "frame": "CONTINUOUS",
+    "thick": "CONTINUOUS",
+    "thin": "CONTINUOUS",
+    "dashed": "SHEET_DASHED",
+    "chain": "SHEET_CHAIN",
+    "double_chain": "SHEET_DOUBLE_CHAIN",
+}
 _COLOURS = {"frame": 7, "thick": 7, "thin": 3, "dashed": 2, "chain": 1, "double_chain": 6, "text": 7}
 #: Patterns: their full length, then dashes and gaps (negative), mm.
 _PATTERNS = {
@@ -100,9 +102,7 @@ def dxf(items: Iterable[Item], paper: Paper) -> bytes:
         if isinstance(item, Text):
             add(space, item, "text")
         else:
-            covers = [
-                each for each in rows[place + 1 :] if not isinstance(each, Text) and each.fill == "paper"
-            ]
+            covers = [each for each in rows[place + 1 :] if not isinstance(each, Text) and each.fill == "paper"]
             _shape(space, item, covers)
     return content_of(document)
 
@@ -153,11 +153,7 @@ def _outside(start: Floats, end: Floats, shapes: list[Line | Circle]) -> list[tu
     """The shares of the way from start to end that no shape covers."""
     free = [(0.0, 1.0)]
     for shape in shapes:
-        inside = (
-            _in_circle(start, end, shape)
-            if isinstance(shape, Circle)
-            else _in_polygon(start, end, shape.points)
-        )
+        inside = _in_circle(start, end, shape) if isinstance(shape, Circle) else _in_polygon(start, end, shape.points)
         if inside is None:
             continue
         low, high = inside

@@ -26,9 +26,15 @@ from linkwright.core.arrays import Complexes, Flags, Floats, Integers
 #: Positions this near to a dead point, relative to the lengths, may lie on either branch.
 EQUAL = 1e-9
 TYPES = (
-    "crank_rocker", "rocker_crank", "double_crank", "double_rocker", "triple_rocker", "change_point",
-    "slider_crank", "slider_rocker",
-)  # fmt: skip
+    "crank_rocker",
+    "rocker_crank",
+    "double_crank",
+    "double_rocker",
+    "triple_rocker",
+    "change_point",
+    "slider_crank",
+    "slider_rocker",
+)
 FULL, NEAR_ZERO, NEAR_PI, PAIR, NOWHERE = range(5)
 
 
@@ -154,12 +160,8 @@ def _working_range(theta: Floats, place: Integers) -> tuple[Floats, Floats, Flag
     backward = np.mod(tiny - np.diff(theta, axis=1), 2 * np.pi).sum(1)
     turning = np.minimum(forward, backward) < 2 * np.pi + theta.shape[1] * tiny
     full = place == FULL
-    first = np.where(
-        full, 0.0, np.where(place == PAIR, np.sign(theta[:, 0]) * pair_low.min(1), signed.min(1))
-    )
-    last = np.where(
-        full, 2 * np.pi, np.where(place == PAIR, np.sign(theta[:, 0]) * pair_low.max(1), signed.max(1))
-    )
+    first = np.where(full, 0.0, np.where(place == PAIR, np.sign(theta[:, 0]) * pair_low.min(1), signed.min(1)))
+    last = np.where(full, 2 * np.pi, np.where(place == PAIR, np.sign(theta[:, 0]) * pair_low.max(1), signed.max(1)))
     return np.minimum(first, last), np.maximum(first, last), ~np.where(full, turning, rocking)
 
 
@@ -171,15 +173,30 @@ def _cosines(first: Floats, last: Floats, special: NDArray[np.floating[Any]]) ->
 
 
 def _assessment(
-    kind: Integers, place: Integers, order: Flags, branch: Integers, circuit: Integers,
-    transmission: Floats, ends: tuple[Floats, Floats], first: Floats, last: Floats,
-) -> Assessment:  # fmt: skip
+    kind: Integers,
+    place: Integers,
+    order: Flags,
+    branch: Integers,
+    circuit: Integers,
+    transmission: Floats,
+    ends: tuple[Floats, Floats],
+    first: Floats,
+    last: Floats,
+) -> Assessment:
     off_circuit, off_branch = _differs(circuit), _differs(branch)
     shortest, longest = ends
     return Assessment(
-        kind, place == FULL, order, off_branch & ~off_circuit, off_circuit, transmission,
-        longest / np.maximum(shortest, 1e-300), longest, first, last,
-    )  # fmt: skip
+        kind,
+        place == FULL,
+        order,
+        off_branch & ~off_circuit,
+        off_circuit,
+        transmission,
+        longest / np.maximum(shortest, 1e-300),
+        longest,
+        first,
+        last,
+    )
 
 
 def _differs(sign: Integers) -> Flags:

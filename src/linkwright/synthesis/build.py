@@ -21,9 +21,15 @@ NAMES = {
 
 
 def four_bar(
-    o1: complex, a: complex, b: complex, o2: complex, p: complex | None = None, *,
-    kind: str = "", span: tuple[float, float] | None = None,
-) -> Linkage:  # fmt: skip
+    o1: complex,
+    a: complex,
+    b: complex,
+    o2: complex,
+    p: complex | None = None,
+    *,
+    kind: str = "",
+    span: tuple[float, float] | None = None,
+) -> Linkage:
     """A four-bar O1 A B O2 with an optional coupler point P, in the pose of these points; O1A is the input."""
     first, second = NAMES.get(kind, ("input", "output"))
     points = {"O1": o1, "O2": o2, "A": a, "B": b} | ({} if p is None else {"P": p})
@@ -41,9 +47,15 @@ def four_bar(
 
 
 def slider_crank(
-    o1: complex, a: complex, b: complex, direction: complex, p: complex | None = None, *,
-    span: tuple[float, float] | None = None, turns: bool = True,
-) -> Linkage:  # fmt: skip
+    o1: complex,
+    a: complex,
+    b: complex,
+    direction: complex,
+    p: complex | None = None,
+    *,
+    span: tuple[float, float] | None = None,
+    turns: bool = True,
+) -> Linkage:
     """A slider-crank O1 A B with an optional coupler point P; the guide passes B along ``direction``."""
     unit = direction / abs(direction)
     forward = ((b - a) * unit.conjugate()).real >= 0
@@ -70,23 +82,47 @@ def working_span(facts: Assessment, index: int, base: float) -> tuple[float, flo
 
 
 def candidate(
-    linkage: Linkage, facts: Assessment, index: int, error: float, *,
-    worst: float = 0.0, curve: NDArray[np.generic] | None = None, values: Mapping[str, float] | None = None,
+    linkage: Linkage,
+    facts: Assessment,
+    index: int,
+    error: float,
+    *,
+    worst: float = 0.0,
+    curve: NDArray[np.generic] | None = None,
+    values: Mapping[str, float] | None = None,
     positions: Mapping[str, Complexes] | None = None,
-) -> Candidate:  # fmt: skip
+) -> Candidate:
     """A candidate from one row of an assessment."""
     return Candidate(
-        linkage, float(error), TYPES[int(facts.kind[index])], facts.defects(index), bool(facts.turns[index]),
-        float(facts.transmission[index]), float(facts.ratio[index]), float(worst), curve, values or {},
+        linkage,
+        float(error),
+        TYPES[int(facts.kind[index])],
+        facts.defects(index),
+        bool(facts.turns[index]),
+        float(facts.transmission[index]),
+        float(facts.ratio[index]),
+        float(worst),
+        curve,
+        values or {},
         positions or {},
-    )  # fmt: skip
+    )
 
 
 def four_bar_candidate(
-    o1: complex, a: Complexes, b: Complexes, o2: complex, facts: Assessment, index: int, error: float, *,
-    p: complex | None = None, worst: float = 0.0, curve: NDArray[np.generic] | None = None,
-    values: Mapping[str, float] | None = None, path: Complexes | None = None,
-) -> Candidate:  # fmt: skip
+    o1: complex,
+    a: Complexes,
+    b: Complexes,
+    o2: complex,
+    facts: Assessment,
+    index: int,
+    error: float,
+    *,
+    p: complex | None = None,
+    worst: float = 0.0,
+    curve: NDArray[np.generic] | None = None,
+    values: Mapping[str, float] | None = None,
+    path: Complexes | None = None,
+) -> Candidate:
     """A candidate from pivots and the positions (n,) of its moving pins; the first position is the pose.
 
     ``path``: the positions (n,) of the coupler point, where it has one.
@@ -95,9 +131,7 @@ def four_bar_candidate(
     kind = TYPES[int(facts.kind[index])]
     linkage = four_bar(o1, complex(a[0]), complex(b[0]), o2, p, kind=kind, span=span)
     positions = {"A": a, "B": b} | ({} if path is None else {"P": path})
-    return candidate(
-        linkage, facts, index, error, worst=worst, curve=curve, values=values, positions=positions
-    )
+    return candidate(linkage, facts, index, error, worst=worst, curve=curve, values=values, positions=positions)
 
 
 def path_of_four_bar(o1: complex, a: complex, b: complex, o2: complex, p: complex) -> Complexes:

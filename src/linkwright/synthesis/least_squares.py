@@ -19,13 +19,7 @@ SHRINK, GROW, LARGEST, ENOUGH = 0.2, 6.0, 1e12, 1e-13
 
 
 def minimise(
-    system: System,
-    start: Floats,
-    *,
-    steps: int = 80,
-    keep: int = 6,
-    halve: int = 8,
-    progress: Progress | None = None,
+    system: System, start: Floats, *, steps: int = 80, keep: int = 6, halve: int = 8, progress: Progress | None = None
 ) -> tuple[Floats, Floats, Integers]:
     """Local minima of Σ r² from the rows of ``start`` (K, m): parameters, sums (both best first) and start numbers.
 

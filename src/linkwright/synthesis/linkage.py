@@ -133,9 +133,7 @@ def _lines(linkage: Linkage, name: str, purpose: str, source: str, speed: str) -
         fixed = set(linkage.frame)
         lines.append("drawing:")
         lines += [
-            f"  {each}: {_pair(place, unit, scale)}"
-            for each, place in linkage.points.items()
-            if each not in fixed
+            f"  {each}: {_pair(place, unit, scale)}" for each, place in linkage.points.items() if each not in fixed
         ]
     return lines + _driver(linkage, speed)
 
@@ -174,8 +172,10 @@ def _phase(linkage: Linkage, link: str, about: str) -> float:
 
 def _extent(linkage: Linkage) -> float:
     places = list(linkage.points.values())
-    return max(max(p.real for p in places) - min(p.real for p in places),
-               max(p.imag for p in places) - min(p.imag for p in places))  # fmt: skip
+    return max(
+        max(p.real for p in places) - min(p.real for p in places),
+        max(p.imag for p in places) - min(p.imag for p in places),
+    )
 
 
 def _link(linkage: Linkage, name: str, unit: str, scale: float) -> str:
@@ -186,9 +186,7 @@ def _link(linkage: Linkage, name: str, unit: str, scale: float) -> str:
     origin, end = linkage.points[points[0]], linkage.points[points[1]]
     length = f"length: {_digits(abs(end - origin) * scale)} {unit}"
     axis = (end - origin) / abs(end - origin)
-    also = ", ".join(
-        f"{each}: {_pair((linkage.points[each] - origin) / axis, unit, scale)}" for each in points[2:]
-    )
+    also = ", ".join(f"{each}: {_pair((linkage.points[each] - origin) / axis, unit, scale)}" for each in points[2:])
     tail = f", also: {{{also}}}" if also else ""
     return f"{{points: [{points[0]}, {points[1]}], {length}{tail}}}"
 
@@ -221,12 +219,7 @@ def _digits(value: float) -> str:
 def _quoted(text: str) -> str:
     """Plain where YAML reads it as text, else in double quotes."""
     calm = text.lower().translate(str.maketrans("", "", " -_,.()")) if text else ""
-    if (
-        calm
-        and text[0].lower() in PLAIN[:26]
-        and all(each.isalnum() for each in calm)
-        and text == text.strip()
-    ):
+    if calm and text[0].lower() in PLAIN[:26] and all(each.isalnum() for each in calm) and text == text.strip():
         return text
     escaped = text.replace("\\", "\\\\").replace('"', '\\"')
     return f'"{escaped}"'

@@ -84,9 +84,7 @@ class Candidate:
         """The candidate as a mechanism, its input link driven at constant speed: a text or rad/s."""
         return self.linkage.mechanism(name, speed=speed)
 
-    def loads(
-        self, mass_per_length: float, *, speed: str | float = "60 rpm", steps: int = 180
-    ) -> dict[str, float]:
+    def loads(self, mass_per_length: float, *, speed: str | float = "60 rpm", steps: int = 180) -> dict[str, float]:
         """Peak input torque (N·m) and peak reaction (N) where every link has ``mass_per_length`` (kg/m).
 
         Links are slender rods between their first two points, m l²/12 about their middle; gravity is left out.
@@ -216,9 +214,7 @@ class Synthesis(PlotMixin, Tabular):
         for path in paths:
             refuse_target(path, force=force)
         for number, path in enumerate(paths):
-            atomic_write(
-                path, self.model_text(number, f"{stem} {number + 1}", speed=speed).encode(), force=force
-            )
+            atomic_write(path, self.model_text(number, f"{stem} {number + 1}", speed=speed).encode(), force=force)
         return paths
 
     def model_text(
@@ -233,9 +229,7 @@ class Synthesis(PlotMixin, Tabular):
 def title_text(found: Synthesis, tell: Translate) -> str:
     """The task and how many candidates there are."""
     title = (
-        _("Synthesis: {task}, {count} candidate")
-        if len(found) == 1
-        else _("Synthesis: {task}, {count} candidates")
+        _("Synthesis: {task}, {count} candidate") if len(found) == 1 else _("Synthesis: {task}, {count} candidates")
     )
     return tell(title.format(task=display_name(found.task, tell), count=len(found)))
 
@@ -245,14 +239,11 @@ def _dimensions(found: Synthesis, tell: Translate) -> list[str]:
     between, lines = tell(_(", ")), []
     for number, each in enumerate(found.candidates, 1):
         lengths = between.join(
-            f"{display_name(name, tell)} {length_text(value, 7)}"
-            for name, value in each.linkage.lengths().items()
+            f"{display_name(name, tell)} {length_text(value, 7)}" for name, value in each.linkage.lengths().items()
         )
         lines.append(tell(_("Candidate {number}: {lengths}", number=number, lengths=lengths)))
         if each.values:
-            values = between.join(
-                f"{display_name(name, tell)} = {value:.7g}" for name, value in each.values.items()
-            )
+            values = between.join(f"{display_name(name, tell)} = {value:.7g}" for name, value in each.values.items())
             lines.append(tell(_("  {values}", values=values)))
     return lines
 
@@ -267,9 +258,7 @@ def _purpose(found: Synthesis, each: Candidate, language: str) -> str:
     """What a candidate is, for its model file."""
     tell = speaker(language)
     defects = (
-        tell(_("defects: {defects}", defects=defects_text(each, tell)))
-        if each.defects
-        else tell(_("no defects"))
+        tell(_("defects: {defects}", defects=defects_text(each, tell))) if each.defects else tell(_("no defects"))
     )
     return tell(
         _(
@@ -327,8 +316,7 @@ class SynthesisError(LinkwrightError):
 
 #: Sentences that several tasks say.
 FREE_CURVE_FILE = _(
-    'the curve\'s file "{path}" cannot be read; name a .csv, .txt or .svg file',
-    code="synthesize.free_curve.file",
+    'the curve\'s file "{path}" cannot be read; name a .csv, .txt or .svg file', code="synthesize.free_curve.file"
 )
 FREE_CURVE_NO_CURVE = _(
     "a free curve needs its points or a file, and one of them only; give points: or file:",
@@ -357,12 +345,10 @@ MOTION_NO_MOVABLE = _(
     code="synthesize.motion.no_movable",
 )
 MOTION_NO_PAIRS = _(
-    "no two dyads make a linkage within the given region; enlarge it",
-    code="synthesize.motion.no_pairs",
+    "no two dyads make a linkage within the given region; enlarge it", code="synthesize.motion.no_pairs"
 )
 MOTION_POSES = _(
-    "the poses must be a list of two or more x, y, angle; write [[x, y, angle], …]",
-    code="synthesize.motion.poses",
+    "the poses must be a list of two or more x, y, angle; write [[x, y, angle], …]", code="synthesize.motion.poses"
 )
 NOT_POSITIVE = _("invalid {name} {value}; expected a positive, finite number", code="synthesize.not_positive")
 PATH_NO_REAL = _(
@@ -371,13 +357,9 @@ PATH_NO_REAL = _(
     "of {error} m²",
     code="synthesize.path.no_real",
 )
-PATH_ONE_PLACE = _(
-    "all points of the path lie in one place; give different points",
-    code="synthesize.path.one_place",
-)
+PATH_ONE_PLACE = _("all points of the path lie in one place; give different points", code="synthesize.path.one_place")
 POINTS = _(
-    "the points must be a list of pairs of finite coordinates; write [[x, y], [x, y], …]",
-    code="synthesize.points",
+    "the points must be a list of pairs of finite coordinates; write [[x, y], [x, y], …]", code="synthesize.points"
 )
 TOO_ROUNDED = _(
     "with lengths rounded to multiples of {value} mm the best linkage no longer meets the "
@@ -388,8 +370,7 @@ NO_TASK = _('there is no task "{task}"; known: {known}', code="synthesize.task")
 DEMAND_MISSING = _('the task "{task}" needs "{demand}": {form}', code="synthesize.task.missing")
 NOT_WITH = _('"{demand}" does not apply with {other}; leave out one of them', code="synthesize.task.not_with")
 ONLY_WITH = _(
-    '"{demand}" applies only with "{needs}"; leave it out or give that as well',
-    code="synthesize.task.only_with",
+    '"{demand}" applies only with "{needs}"; leave it out or give that as well', code="synthesize.task.only_with"
 )
 DEMAND_UNKNOWN = _('"{demand}" is no demand of the task "{task}"; {hint}', code="synthesize.task.unknown")
 TRANSMISSION_RANGE = _(
@@ -412,9 +393,7 @@ def different(candidates: tuple[Candidate, ...], distance: float) -> tuple[Candi
     size where no length differs by more than that share. With 0 all stay."""
     distinct: list[Candidate] = []
     for each in candidates:
-        if not distance or not any(
-            _same_dimensions(each.linkage, better.linkage, distance) for better in distinct
-        ):
+        if not distance or not any(_same_dimensions(each.linkage, better.linkage, distance) for better in distinct):
             distinct.append(each)
     return tuple(distinct)
 

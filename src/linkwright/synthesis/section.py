@@ -50,20 +50,13 @@ FORMS = {
     "file": _("the name of a file, relative to this one", code="synthesize.task.form.file"),
     "word": _("a word", code="synthesize.task.form.word"),
     "points": _(
-        "a list of points with units, such as [[0 mm, 10 mm], [5 mm, 12 mm]]",
-        code="synthesize.task.form.points",
+        "a list of points with units, such as [[0 mm, 10 mm], [5 mm, 12 mm]]", code="synthesize.task.form.points"
     ),
     "point": _("a point with units, such as [0 mm, 10 mm]", code="synthesize.task.form.point"),
-    "poses": _(
-        "a list of poses with units, such as [[0 mm, 10 mm, 30 deg], …]",
-        code="synthesize.task.form.poses",
-    ),
+    "poses": _("a list of poses with units, such as [[0 mm, 10 mm, 30 deg], …]", code="synthesize.task.form.poses"),
     "angles": _("a list of angles with units, such as [30 deg, 60 deg]", code="synthesize.task.form.angles"),
     "lengths": _("a list of lengths with units, such as [30 mm, 60 mm]", code="synthesize.task.form.lengths"),
-    "window": _(
-        "two corners with units, such as [[0 mm, 0 mm], [80 mm, 50 mm]]",
-        code="synthesize.task.form.window",
-    ),
+    "window": _("two corners with units, such as [[0 mm, 0 mm], [80 mm, 50 mm]]", code="synthesize.task.form.window"),
 }
 
 
@@ -113,8 +106,9 @@ class Demand(Field):
                 return self._wrong(reader, node, place)
             return node.text == "true" if flag else node.text
         dimensions, depth = SHAPES[self.form]
-        found = self._nested(partial(self._quantity, reader, place, siblings, set()), reader, node, place,
-                             dimensions, depth)  # fmt: skip
+        found = self._nested(
+            partial(self._quantity, reader, place, siblings, set()), reader, node, place, dimensions, depth
+        )
         if self.form != "count" or found is None:
             return found
         return int(found) if found.is_integer() else self._wrong(reader, node, place)
@@ -136,13 +130,7 @@ class Demand(Field):
         return [*values, *[math.nan] * (len(dimensions) - count)]
 
     def _quantity(
-        self,
-        reader: Reader,
-        place: Place,
-        given: Mapping[str, Any],
-        bare: set[str],
-        node: Node,
-        dimension: str,
+        self, reader: Reader, place: Place, given: Mapping[str, Any], bare: set[str], node: Node, dimension: str
     ) -> float | None:
         """One quantity; the finding of the first ``bare`` number of a list offers the key for the unit of all."""
         if not isinstance(node, Scalar):
@@ -246,9 +234,7 @@ def _fields(task: Task) -> dict[str, Field]:
         "task": Word(tuple(tasks()), doc=_("the task")),
         "unit": UnitOf("length", doc=_("unit of bare lengths in lists")),
         "angle_unit": UnitOf("angle", doc=_("unit of bare angles in lists")),
-        **{
-            key: Demand(form, required=key in needed, doc=form_of(form)) for key, form in task.demands.items()
-        },
+        **{key: Demand(form, required=key in needed, doc=form_of(form)) for key, form in task.demands.items()},
     }
 
 
@@ -267,9 +253,7 @@ def _sayings(task: Task, name: str) -> Sayings:
     }
 
 
-def read_section(
-    section: Node | None, name: str, folder: str = ""
-) -> tuple[str, dict[str, Any], list[Finding]]:
+def read_section(section: Node | None, name: str, folder: str = "") -> tuple[str, dict[str, Any], list[Finding]]:
     """Task, demands (SI) and findings of a section; files that the demands name lie in ``folder``."""
     reader = FileReader(name)
     found = None

@@ -50,13 +50,13 @@ def task_file(file: str | Path) -> TaskFile | None:
         return None
     reader = Reader(name)
     entries = [entry for entry in root.entries if entry.key.text in HEADING]
-    found = (
-        reader.table(replace(root, entries=entries), Place("", ""), {key: HEADER[key] for key in HEADING})
-        or {}
-    )
+    found = reader.table(replace(root, entries=entries), Place("", ""), {key: HEADER[key] for key in HEADING}) or {}
     if reader.error_count:
         raise ModelError(reader.findings)
     return TaskFile(
-        str(file), found.get("name") or Path(name).stem, found.get("purpose") or "", found.get("source") or "",
+        str(file),
+        found.get("name") or Path(name).stem,
+        found.get("purpose") or "",
+        found.get("source") or "",
         found.get("report") or {},
-    )  # fmt: skip
+    )

@@ -50,9 +50,7 @@ def synthesize(task: str | Path, **demands: Any) -> Synthesis:
             raise SynthesisError(DEMAND_UNKNOWN.format(demand=key, task=task, hint=hint))
     for key in chosen.needed:
         if key not in demands:
-            raise SynthesisError(
-                DEMAND_MISSING.format(task=task, demand=key, form=form_of(chosen.demands[key]))
-            )
+            raise SynthesisError(DEMAND_MISSING.format(task=task, demand=key, form=form_of(chosen.demands[key])))
     return chosen.run(**demands)
 
 

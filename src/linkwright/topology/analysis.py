@@ -70,9 +70,7 @@ class Structure(Tabular):
                 name: {"link": link, "about": pin, "relative_to": other}
                 for name, (link, pin, other) in self.turned.items()
             },
-            "trains": [
-                {"carrier": t.carrier, "pairs": list(t.pairs), "ratios": dict(t.ratios)} for t in self.trains
-            ],
+            "trains": [{"carrier": t.carrier, "pairs": list(t.pairs), "ratios": dict(t.ratios)} for t in self.trains],
             "parts": [list(part) for part in self.parts],
             "class": self.mechanism_class,
             "groups": [
@@ -144,17 +142,13 @@ _MOBILITIES = {
     (False, False): _("Mobility F = 3n - 2p = 3·{links} - 2·{pairs} = {mobility}"),
     (False, True): _("Mobility F = 3n - 2p - 3w = 3·{links} - 2·{pairs} - 3·{welds} = {mobility}"),
     (True, False): _("Mobility F = 3n - 2p - p_H = 3·{links} - 2·{pairs} - {higher} = {mobility}"),
-    (True, True): _(
-        "Mobility F = 3n - 2p - 3w - p_H = 3·{links} - 2·{pairs} - 3·{welds} - {higher} = {mobility}",
-    ),
+    (True, True): _("Mobility F = 3n - 2p - 3w - p_H = 3·{links} - 2·{pairs} - 3·{welds} - {higher} = {mobility}"),
 }
 
 
 def _mobility(structure: Structure, say: Translate) -> list[str]:
     n, (r, p, w) = structure.counts["links"], lower_pair_counts(structure.counts)
-    higher = {
-        kind: count for kind, count in structure.counts.items() if kind in JOINTS and JOINTS[kind].higher
-    }
+    higher = {kind: count for kind, count in structure.counts.items() if kind in JOINTS and JOINTS[kind].higher}
     h = sum(higher.values())
     counted = (
         ngettext(
@@ -165,9 +159,7 @@ def _mobility(structure: Structure, say: Translate) -> list[str]:
             count=w,
         )
         if w
-        else _(
-            "Moving links n = {links}; lower pairs p = {pairs}: {revolute} revolute, {prismatic} prismatic"
-        )
+        else _("Moving links n = {links}; lower pairs p = {pairs}: {revolute} revolute, {prismatic} prismatic")
     ).format(links=n, pairs=r + p, revolute=r, prismatic=p)
     first = say(counted)
     if h:
@@ -199,9 +191,7 @@ def _mobility(structure: Structure, say: Translate) -> list[str]:
     if structure.mobility == 0 and not drivers:
         lines.append(_("Mobility 0 and no driver: a structure at rest, which carries loads."))
     elif structure.mobility == drivers:
-        lines.append(
-            _("Mobility equals the number of drivers ({count}): the motion is determined.", count=drivers)
-        )
+        lines.append(_("Mobility equals the number of drivers ({count}): the motion is determined.", count=drivers))
     return lines
 
 

@@ -89,9 +89,7 @@ def _rooted(chosen: Sequence[Connection], solved: Set[str]) -> list[TreeJoint]:
     return tree
 
 
-def _classify(
-    links: Sequence[str], connections: Sequence[Connection], solved: Set[str]
-) -> tuple[str, int, int]:
+def _classify(links: Sequence[str], connections: Sequence[Connection], solved: Set[str]) -> tuple[str, int, int]:
     """Signature, class and order; links held together by a driver or a weld count as one."""
     merged = _merge(links, connections)
     free = [c for c in connections if c.driver is None and not c.rigid]

@@ -103,9 +103,7 @@ class ConstraintGraph:
         else:
             self.redundant.append(source)
 
-    def demand(
-        self, source: str, bodies: tuple[str, ...], times: int = 1, *, rotation_only: bool = False
-    ) -> None:
+    def demand(self, source: str, bodies: tuple[str, ...], times: int = 1, *, rotation_only: bool = False) -> None:
         """Adds a demand of a joint or driver on bodies; ``rotation_only``: it touches only their rotations."""
         moving = tuple(body for body in bodies if body != FRAME)
         self.equations.extend([Equation(source, moving, rotation_only)] * times)

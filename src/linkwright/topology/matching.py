@@ -32,9 +32,7 @@ def _augment(start: int, choices: Sequence[Sequence[int]], place_of: list[int], 
             rows.append(row_of[place])
 
 
-def _exchange(
-    place: int, start: int, came_from: Mapping[int, int], place_of: list[int], row_of: list[int]
-) -> None:
+def _exchange(place: int, start: int, came_from: Mapping[int, int], place_of: list[int], row_of: list[int]) -> None:
     while True:
         row = came_from[place]
         previous = place_of[row]

@@ -117,14 +117,12 @@ def explain_excess(
     if mobility <= 0 and drivers:
         why = (
             _(
-                "{name!r} has mobility {mobility} by Grübler's formula, so it cannot be driven, but "
-                "{drivers} is set",
+                "{name!r} has mobility {mobility} by Grübler's formula, so it cannot be driven, but {drivers} is set",
                 code="mobility.cannot_be_driven",
             )
             if drivers == 1
             else _(
-                "{name!r} has mobility {mobility} by Grübler's formula, so it cannot be driven, but "
-                "{drivers} are set",
+                "{name!r} has mobility {mobility} by Grübler's formula, so it cannot be driven, but {drivers} are set"
             )
         ).format(
             name=mechanism.name,
@@ -205,20 +203,11 @@ def _has(mechanism: Mechanism, mobility: int) -> Message:
     count = len(mechanism.drivers)
     drivers = _DRIVERS[min(count, 4)].format(count=count)
     return _(
-        "{name!r} has mobility {mobility} and {drivers}",
-        name=mechanism.name,
-        mobility=mobility,
-        drivers=drivers,
+        "{name!r} has mobility {mobility} and {drivers}", name=mechanism.name, mobility=mobility, drivers=drivers
     )
 
 
-_DRIVERS = (
-    _("no drivers"),
-    _("one driver"),
-    _("two drivers"),
-    _("three drivers"),
-    _("{count} drivers"),
-)
+_DRIVERS = (_("no drivers"), _("one driver"), _("two drivers"), _("three drivers"), _("{count} drivers"))
 _MORE = (
     _("no more drivers"),
     _("one more driver"),

@@ -121,9 +121,7 @@ def blocking_pairs(mechanism: Mechanism) -> list[str]:
     def hold(names: list[str]) -> bool:
         columns = sorted({each for name in names for each in rows[name]})
         matrix = np.array([[rows[name].get(each, 0.0) for each in columns] for name in names])
-        matrix = matrix.reshape(len(names), len(columns)) / np.abs(matrix).max(
-            initial=0.0, axis=-1, keepdims=True
-        )
+        matrix = matrix.reshape(len(names), len(columns)) / np.abs(matrix).max(initial=0.0, axis=-1, keepdims=True)
         _, sizes, ways = np.linalg.svd(matrix)
         free = ways[int((sizes > STILL).sum()) :]
         return bool((np.abs(free) < STILL).all(axis=0).any())

@@ -129,14 +129,9 @@ def areas(inputs: Mapping[str, Any]) -> Find:
     from linkwright.machine.flywheel import speed_fluctuation
 
     scale = parse(inputs["angle_scale"], "angle")
-    energy = fluctuation_from_areas(
-        inputs["areas"], torque_scale=inputs["torque_scale"], angle_scale=scale
-    ).value
+    energy = fluctuation_from_areas(inputs["areas"], torque_scale=inputs["torque_scale"], angle_scale=scale).value
     speed = parse(inputs["speed"], "angular_velocity")
-    values = {
-        "energy_fluctuation": energy,
-        "speed_fluctuation": speed_fluctuation(energy, speed, inputs["inertia"]),
-    }
+    values = {"energy_fluctuation": energy, "speed_fluctuation": speed_fluctuation(energy, speed, inputs["inertia"])}
     return values.__getitem__
 
 
@@ -193,9 +188,7 @@ def function(inputs: Mapping[str, Any]) -> Find:
     from linkwright.synthesis.function_generation.generate import function_generation
 
     pairs = (np.radians(inputs[name]) for name in ("inputs", "outputs"))
-    best = function_generation(
-        *pairs, input_zero=0, output_zero=0, frame=parse(inputs["frame"], "length")
-    ).best
+    best = function_generation(*pairs, input_zero=0, output_zero=0, frame=parse(inputs["frame"], "length")).best
     return best.linkage.lengths().__getitem__
 
 
@@ -249,7 +242,20 @@ def regression(inputs: Mapping[str, Any]) -> Find:
 PROBES: Mapping[str, Probe] = {
     each.__name__: each
     for each in (
-        machine, limits, metrics, structure, gear_pair, involute, areas, torque, calculation, path, function,
-        double_crank, slider_crank, motion_law, regression,
+        machine,
+        limits,
+        metrics,
+        structure,
+        gear_pair,
+        involute,
+        areas,
+        torque,
+        calculation,
+        path,
+        function,
+        double_crank,
+        slider_crank,
+        motion_law,
+        regression,
     )
-}  # fmt: skip
+}

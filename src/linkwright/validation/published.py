@@ -130,19 +130,14 @@ def _of_state(state: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
     for point, numbers in state.get("points", {}).items():
         for kind, pair in numbers.items():
             yield from (
-                (f"{point}.{kind}.{axis}", f"{kind}.{axis}", str(text))
-                for axis, text in zip("xy", pair, strict=True)
+                (f"{point}.{kind}.{axis}", f"{kind}.{axis}", str(text)) for axis, text in zip("xy", pair, strict=True)
             )
     for joint, numbers in state.get("reactions", {}).items():
         on = f"{joint} on {numbers['on']}"
         pair = numbers.get("force", ())
+        yield from ((f"{on}.{axis}", f"force.{axis}", str(text)) for axis, text in zip("xy", pair, strict=False))
         yield from (
-            (f"{on}.{axis}", f"force.{axis}", str(text)) for axis, text in zip("xy", pair, strict=False)
-        )
-        yield from (
-            (f"{on}.{kind}", kind, str(numbers[kind]))
-            for kind in ("magnitude", "direction")
-            if kind in numbers
+            (f"{on}.{kind}", kind, str(numbers[kind])) for kind in ("magnitude", "direction") if kind in numbers
         )
     for driver, text in state.get("efforts", {}).items():
         yield f"{driver}.effort", "effort", str(text)

@@ -62,13 +62,17 @@ class Validation(Tabular):
             found.setdefault((each.case.case, each.case.source), []).append(each)
         return found
 
-    def tables(
-        self, language: str = "en", *, every: bool = False, sources: bool = False
-    ) -> tuple[Table, ...]:
+    def tables(self, language: str = "en", *, every: bool = False, sources: bool = False) -> tuple[Table, ...]:
         """A row per case with its counts, where asked its source; in full what fails and the errata, or ``every``
         number."""
-        head = (_("case"), _("source"), _("numbers"), _("printed by the source"), _("agree"),
-                _("largest difference, last digits"))  # fmt: skip
+        head = (
+            _("case"),
+            _("source"),
+            _("numbers"),
+            _("printed by the source"),
+            _("agree"),
+            _("largest difference, last digits"),
+        )
         rows: list[tuple[Cell, ...]] = []
         for (case, source), checks in self.cases().items():
             agree, worst = sum(each.ok for each in checks), max(abs(each.digits) for each in checks)
@@ -128,9 +132,7 @@ def line(each: Checked, language: str) -> str:
     }
     if each.trouble:
         return say(
-            _("{case}: {what}: not found: {sentence}").format(
-                sentence=in_language(each.trouble, language), **words
-            )
+            _("{case}: {what}: not found: {sentence}").format(sentence=in_language(each.trouble, language), **words)
         )
     ours = f"{each.value:.10g} {number.partition(' ')[2]}".strip()
     if each.erratum:

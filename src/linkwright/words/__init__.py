@@ -7,17 +7,7 @@ from collections.abc import Callable
 from linkwright.words.message import LANGUAGES, Message, _, ngettext, pgettext
 from linkwright.words.sentence import in_language
 
-__all__ = [
-    "LANGUAGES",
-    "Message",
-    "Translate",
-    "_",
-    "in_language",
-    "language_of",
-    "ngettext",
-    "pgettext",
-    "say",
-]
+__all__ = ["LANGUAGES", "Message", "Translate", "_", "in_language", "language_of", "ngettext", "pgettext", "say"]
 
 Translate = Callable[[Message], str]
 

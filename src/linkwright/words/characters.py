@@ -10,9 +10,7 @@ UNFIT = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufdd0-\ufdef\ufffe
 _FORMULA = re.compile(r"[=+\-@\t\r]")
 #: What stays together where lines break: a word with a number before it, up to a plus or dash; a Chinese character;
 #: and the Chinese punctuation behind.
-_PIECE = (
-    r"\s*(?:\d[\d.]* )?(?:[\u2e80-\uffef]|[^\s+–\u2e80-\uffef]*[+–]|[^\s+–\u2e80-\uffef]+)[，。；：、）]*"
-)
+_PIECE = r"\s*(?:\d[\d.]* )?(?:[\u2e80-\uffef]|[^\s+–\u2e80-\uffef]*[+–]|[^\s+–\u2e80-\uffef]+)[，。；：、）]*"
 
 
 def terminal_text(text: str) -> str:

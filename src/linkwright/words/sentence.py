@@ -44,12 +44,7 @@ def in_language(text: str, language: str) -> str:
     return text.say(language) if isinstance(text, Message | LocalizedText) else text
 
 
-NAMES = {
-    "frame": _("frame"),
-    "driver": _("driver"),
-    "max": _("max"),
-    "min": _("min"),
-}
+NAMES = {"frame": _("frame"), "driver": _("driver"), "max": _("max"), "min": _("min")}
 _SYSTEM = {
     "ENOENT": _("No such file or directory"),
     "EACCES": _("Permission denied"),

@@ -135,9 +135,7 @@ def nearest_in_meaning(name: str, candidates: Iterable[str]) -> tuple[str, float
     where none shares any, one for what the name goes with."""
     meanings, named = meaning(name), {each: meaning(each) for each in candidates}
     while meanings:
-        shares = {
-            each: len(meanings & other) / len(meanings | other) for each, other in named.items() if other
-        }
+        shares = {each: len(meanings & other) / len(meanings | other) for each, other in named.items() if other}
         best = max(shares, key=shares.__getitem__, default="")
         if best and shares[best]:
             return best, shares[best]

@@ -73,9 +73,7 @@ class KnownForces:
         if part.mass:
             spot = book.spot(link, "@centre")
             parts = []
-            for c, pull, rush in zip(
-                "xy", self._gravity(), (spot.acceleration.x, spot.acceleration.y), strict=True
-            ):
+            for c, pull, rush in zip("xy", self._gravity(), (spot.acceleration.x, spot.acceleration.y), strict=True):
                 formula = mass * (pull - rush) if moving else mass * pull
                 parts.append(self._named(step, f"K_{n}{c}", formula, "N"))
             self.on[link].append(Known(Pair(*parts), spot.place, spot.velocity))
@@ -118,17 +116,16 @@ class KnownForces:
         if joint:
             text = self.book.say(
                 _(
-                    "friction in {joint}, on link {link} (coefficient times the joint's force, found by "
-                    "iteration):",
+                    "friction in {joint}, on link {link} (coefficient times the joint's force, found by iteration):",
                     joint=joint,
                     link=link,
                 )
             )
         else:
             text = self.book.say(
-                (
-                    _("{name}: does not act in this position.") if idle else _("{name}, on link {link}:")
-                ).format(name=name, link=link)
+                (_("{name}: does not act in this position.") if idle else _("{name}, on link {link}:")).format(
+                    name=name, link=link
+                )
             )
         if not (idle and joint):
             step.say(text)
@@ -147,9 +144,7 @@ class KnownForces:
         book = self.book
         spot = self._spot(link, place)
         if spot is None:
-            at = [
-                step.give(symbol(f"{c}_{label}", v), "m") for c, v in (("x", place.real), ("y", place.imag))
-            ]
+            at = [step.give(symbol(f"{c}_{label}", v), "m") for c, v in (("x", place.real), ("y", place.imag))]
             where = Pair(*at)
             base = next(book.spot(link, point) for point in book.mechanism.links[link].points)
             velocity = base.velocity + (where - base.place).perp.times(book.omega(link))

@@ -17,19 +17,7 @@ import numpy as np
 
 from linkwright.core.outputs import Output
 from linkwright.equations.steps import Step
-from linkwright.equations.terms import (
-    FOUR,
-    NOWHERE,
-    ONE,
-    TWO,
-    ZERO,
-    Pair,
-    Term,
-    cosine,
-    direction,
-    root,
-    sine,
-)
+from linkwright.equations.terms import FOUR, NOWHERE, ONE, TWO, ZERO, Pair, Term, cosine, direction, root, sine
 from linkwright.joints.cam import CamJoint
 from linkwright.words import _
 from linkwright.worked_solutions.lifts import Lift, LiftWriter
@@ -250,9 +238,7 @@ class Guided(CamPair):
         self._profile(step, place, Pair(cosine(heading + alpha), sine(heading + alpha)))
         a, g = self.height, lift.first - self.signed(self.offset)
         self._radius(
-            step,
-            a.squared + g.squared,
-            a * (a - lift.second) + g * (TWO * lift.first - self.signed(self.offset)),
+            step, a.squared + g.squared, a * (a - lift.second) + g * (TWO * lift.first - self.signed(self.offset))
         )
 
     def contact(self, step: Step, force: Term) -> tuple[Pair, Pair, Term]:
@@ -306,10 +292,7 @@ class Swinging(CamPair):
         self.lifts.write(step)
         step.say(
             book.say(
-                _(
-                    "Angle of the arm to the line from {pivot} to the cam's centre: ψ0 + S.",
-                    pivot=self.joint.holder,
-                )
+                _("Angle of the arm to the line from {pivot} to the cam's centre: ψ0 + S.", pivot=self.joint.holder)
             )
         )
         c, length = self.sizes
@@ -353,10 +336,7 @@ class Swinging(CamPair):
         book, joint = self.book, self.joint
         step.say(
             book.say(
-                _(
-                    "Directions of the arm and of the line of axes in the cam's axes, and the angle "
-                    "between them:"
-                )
+                _("Directions of the arm and of the line of axes in the cam's axes, and the angle between them:")
             )
         )
         line, own, _unused = self._angles

@@ -248,9 +248,7 @@ def chain_closures(book: SymbolTable, group: Group) -> list[ChainClosure]:
             joint = book.mechanism.guides[cut.joint]
             tip, names = book.spot(cut.b, joint.at), (joint.through, joint.at)
             across = book.slide(cut.joint)
-        chains = tuple(
-            walk(book, group, end, tip, name) for end, name in zip((cut.a, cut.b), names, strict=True)
-        )
+        chains = tuple(walk(book, group, end, tip, name) for end, name in zip((cut.a, cut.b), names, strict=True))
         found.append(ChainClosure(cut, chains, tip, across))  # type: ignore[arg-type]
     return found
 
@@ -290,9 +288,7 @@ def turned(arm: Pair, angle: Term) -> Pair:
     return Pair(arm.x * c - arm.y * s, arm.x * s + arm.y * c)
 
 
-def trail(
-    book: SymbolTable, steps: Sequence[TreeJoint], link: str, point: str, end: str, *, local: bool
-) -> Trail:
+def trail(book: SymbolTable, steps: Sequence[TreeJoint], link: str, point: str, end: str, *, local: bool) -> Trail:
     """From ``point`` of ``link`` along ``steps`` to the point ``end`` of the last link.
 
     ``local``: in the axes of ``link``; otherwise in frame axes, with the angles of all links known.

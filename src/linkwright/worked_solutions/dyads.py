@@ -119,14 +119,10 @@ class DyadWriter:
         if way.reach == NOWHERE:
             return base.place, way
         self.step.say(
-            self.book.say(
-                _("{name}: where {b} would be with the displacement 0.", name=name, b=self.tip.label)
-            )
+            self.book.say(_("{name}: where {b} would be with the displacement 0.", name=name, b=self.tip.label))
         )
         zero = base.place + way.reach
-        return Pair(
-            self.step.define(f"x_{name}", zero.x, "m"), self.step.define(f"y_{name}", zero.y, "m")
-        ), way
+        return Pair(self.step.define(f"x_{name}", zero.x, "m"), self.step.define(f"y_{name}", zero.y, "m")), way
 
 
 @singledispatch
@@ -206,9 +202,7 @@ def _slides(write: DyadWriter, *, separate: bool) -> bool:
     f = Pair(step.define("f_x", f.x, "m"), step.define("f_y", f.y, "m"))
     det = step.define("k", n1.cross(n2), "")
     write.placing.displacement(step, write.book.slide(g1.joint), f.cross(n2) / det)
-    write.placing.displacement(
-        step, write.book.slide(g2.joint), (f.cross(n1) if separate else n1.cross(f)) / det
-    )
+    write.placing.displacement(step, write.book.slide(g2.joint), (f.cross(n1) if separate else n1.cross(f)) / det)
     if separate:
         write.placing.point(step, tip, zero_1 + n1.times(write.book.slide(g1.joint).s))
     return True

@@ -69,9 +69,7 @@ class LiftWriter:
         """Number of the program's segment, and its law; None for a rest."""
         program = self.joint.program
         assert program is not None
-        k = int(
-            np.clip(np.searchsorted(program.edges, self.turned, side="right") - 1, 0, len(program.edges) - 2)
-        )
+        k = int(np.clip(np.searchsorted(program.edges, self.turned, side="right") - 1, 0, len(program.edges) - 2))
         return k, program.moved_by[k][0]
 
     @cached_property
@@ -88,11 +86,7 @@ class LiftWriter:
         book, joint, theta = self.book, self.joint, self.now.angle
         step.say(
             book.say(
-                _(
-                    "Angle of {cam} in the program of {joint}, and the lift there:",
-                    cam=joint.cam,
-                    joint=joint.name,
-                )
+                _("Angle of {cam} in the program of {joint}, and the lift there:", cam=joint.cam, joint=joint.name)
             )
         )
         formula = book.turn(joint.cam) - book.turn(joint.carrier)
@@ -119,13 +113,7 @@ class LiftWriter:
         law, scale = program.moved_by[k]
         assert law is not None
         step.say(
-            say(
-                _(
-                    "Segment {number}: {law}; u runs from 0 to 1.",
-                    number=k + 1,
-                    law=LABELS.get(law.key, law.key),
-                )
-            )
+            say(_("Segment {number}: {law}; u runs from 0 to 1.", number=k + 1, law=LABELS.get(law.key, law.key)))
         )
         low, width = float(program.edges[k]), float(program.edges[k + 1] - program.edges[k])
         begin = step.give(self.named("θ_a", math.degrees(low), degrees=True), "°")
@@ -154,9 +142,7 @@ class LiftWriter:
         row = [float(each) for each in self._row]
         ends = {key: f"{math.degrees(value):.9g}" for key, value in (("low", low), ("high", high))}
         if not any(row[1:]):
-            step.say(
-                say(_("From {low}° to {high}° the table rests: the lift does not change.").format(**ends))
-            )
+            step.say(say(_("From {low}° to {high}° the table rests: the lift does not change.").format(**ends)))
             step.give(self.now.value, "m")
             return
         step.say(

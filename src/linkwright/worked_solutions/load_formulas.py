@@ -37,17 +37,13 @@ class LoadFormulas:
         """The area of a circle, m²."""
         return symbol("π", math.pi) * diameter.squared / FOUR
 
-    def size(
-        self, step: Step, load: Load, letter: str, unit: str, formula: Callable[[], Term | None]
-    ) -> Term | None:
+    def size(self, step: Step, load: Load, letter: str, unit: str, formula: Callable[[], Term | None]) -> Term | None:
         """The load's force or couple, written where it is first asked for; None where it is nothing."""
         if load.name not in self._sizes:
             found = formula()
             nothing = found is None or found.is_zero
             self._sizes[load.name] = (
-                None
-                if found is None or nothing
-                else step.find(self.named(letter, load, found.value), found, unit)
+                None if found is None or nothing else step.find(self.named(letter, load, found.value), found, unit)
             )
         return self._sizes[load.name]
 
@@ -148,18 +144,14 @@ def worked_couple(load: Load, write: LoadFormulas, step: Step, link: str, torque
 
 
 @worked_couple.register
-def _torsion_damper(
-    load: TorsionDamper, write: LoadFormulas, step: Step, link: str, torque: float
-) -> Term | None:
+def _torsion_damper(load: TorsionDamper, write: LoadFormulas, step: Step, link: str, torque: float) -> Term | None:
     a, b = (write.book.omega(each) for each in load.links)
     drag = write.named("c", load, load.damping) * (b - a)
     return write.couple(step, load, load.links, link, torque, lambda _: drag)
 
 
 @worked_couple.register
-def _torsion_spring(
-    load: TorsionSpring, write: LoadFormulas, step: Step, link: str, torque: float
-) -> Term | None:
+def _torsion_spring(load: TorsionSpring, write: LoadFormulas, step: Step, link: str, torque: float) -> Term | None:
     def moment(known: float) -> Term | None:
         if not load.stiffness:
             return None

@@ -49,9 +49,7 @@ class Places(Placing):
 
     def _dyad(self, step: Step, group: Group, dyad: Dyad, ends: tuple[str, str]) -> bool:
         """Writes a closed form; False where there is none that speaks of the group's chains."""
-        return self._plain(group, ends) and write_dyad(
-            dyad, DyadWriter(self, step, group, ends, self.mode(group))
-        )
+        return self._plain(group, ends) and write_dyad(dyad, DyadWriter(self, step, group, ends, self.mode(group)))
 
     def mode(self, group: Group) -> int:
         """+1 or -1: the assembly mode in this position."""
@@ -90,9 +88,7 @@ class Places(Placing):
         step.say(
             book.say(_("They have no closed form; Newton's method gives"))
             if form is None
-            else book.say(
-                _("The closed form {form} of a package gives", form=form.signature or type(form).__name__)
-            )
+            else book.say(_("The closed form {form} of a package gives", form=form.signature or type(form).__name__))
         )
         self.give(step, group)
 
@@ -151,9 +147,7 @@ class Places(Placing):
             step.relate(ZERO, minus(a.y, b.y))
             return
         joint = book.mechanism.guides[cut.joint]
-        a, b = (
-            self._reach(group, end, name, name) for end, name in ((cut.a, joint.through), (cut.b, joint.at))
-        )
+        a, b = (self._reach(group, end, name, name) for end, name in ((cut.a, joint.through), (cut.b, joint.at)))
         offset = symbol(f"h_{cut.joint}", joint.offset) if joint.offset else ZERO
         step.relate(ZERO, minus(closure.across.along.cross(b - a).put(known), offset))
 

@@ -130,11 +130,7 @@ class Movers:
             for point, spot in named_points(book, joint.child):
                 if point != own:
                     self._note(
-                        step,
-                        spot,
-                        self._carried(joint.child, start, spot, second=second),
-                        known,
-                        second=second,
+                        step, spot, self._carried(joint.child, start, spot, second=second), known, second=second
                     )
 
         self._guides(step, group, second=second)

@@ -22,7 +22,7 @@ CLOSURES = {
     (False, True): _("Both ends at {joints} have the same velocity (for a guide: across it):"),
     (True, False): _("Both ends at {joints} have the same acceleration:"),
     (True, True): _(
-        "Both ends at {joints} have the same acceleration (for a guide: across it, with Coriolis' part):",
+        "Both ends at {joints} have the same acceleration (for a guide: across it, with Coriolis' part):"
     ),
 }
 #: Parts of an acceleration that are known.
@@ -61,9 +61,15 @@ def name_matrix(step: Step, group: Group, cuts: Sequence[Closure]) -> System:
 
 
 def solve(
-    step: Step, book: SymbolTable, system: System, unknowns: list[Term], right: list[Term],
-    outputs: Sequence[str | Output], *, transposed: bool = False,
-) -> None:  # fmt: skip
+    step: Step,
+    book: SymbolTable,
+    system: System,
+    unknowns: list[Term],
+    right: list[Term],
+    outputs: Sequence[str | Output],
+    *,
+    transposed: bool = False,
+) -> None:
     """Notes the solution of J q = right (or Jᵀ q = right): Cramer's rule, or for more unknowns each row put in."""
     rows = [list(r) for r in zip(*system.entries, strict=True)] if transposed else system.entries
     if len(rows) == 1:

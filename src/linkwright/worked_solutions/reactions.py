@@ -63,9 +63,7 @@ class Reactions:
         book = self.book
         links = ", ".join(f"{book.numbers[link]} {link}" for link in group.links)
         driven = group.assur_class == 1 and group.drivers
-        message = (
-            _("Forces of the driven link: {links}") if driven else _("Forces of group {signature}: {links}")
-        )
+        message = _("Forces of the driven link: {links}") if driven else _("Forces of group {signature}: {links}")
         title = book.say(message.format(signature=group.signature, links=links))
         head = Step(f"{number}", title, group.name)
         if in_one_step(group):
@@ -101,11 +99,7 @@ class Reactions:
                 )
             )
         right = self._demands(step, group)
-        step.say(
-            book.say(
-                _("The arms of the unknown forces form the matrix J of the velocities, read by columns:")
-            )
-        )
+        step.say(book.say(_("The arms of the unknown forces form the matrix J of the velocities, read by columns:")))
         system = name_matrix(step, group, cuts)
         values = _transposed(system, right)
         if self._pressed(group, system, values):
@@ -142,9 +136,7 @@ class Reactions:
         terms = [term for term, _unused in unknowns]
         for column, goal in zip(zip(*system.entries, strict=True), right, strict=True):
             step.relate(total([e * u for e, u in zip(column, terms, strict=True)]), goal)
-        solve(
-            step, self.book, system, terms, right, [output for _unused, output in unknowns], transposed=True
-        )
+        solve(step, self.book, system, terms, right, [output for _unused, output in unknowns], transposed=True)
 
     def _noted(self, step: Step, cuts: Sequence[Closure], unknowns: list[Term], group: Group) -> None:
         """The forces at the cuts of chains as what acts on the links."""
@@ -222,10 +214,7 @@ class Reactions:
         step = Step(str(number), self.book.say(_("Passive pairs {joints}", joints=", ".join(names))))
         step.say(
             self.book.say(
-                _(
-                    "How they share the load with others is not determined by rigid links; they count as "
-                    "unloaded."
-                )
+                _("How they share the load with others is not determined by rigid links; they count as unloaded.")
             )
         )
         for name in names:

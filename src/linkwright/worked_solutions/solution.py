@@ -121,9 +121,7 @@ class Worked(Solution):
         return {**super().data(), "legend": list(self.legend), "position": self.position}
 
 
-def worked(
-    source: Forces | Motion, position: int = 0, *, at: float | None = None, language: str = "en"
-) -> Worked:
+def worked(source: Forces | Motion, position: int = 0, *, at: float | None = None, language: str = "en") -> Worked:
     """The worked solution of one position: motion group by group, then forces in reverse order.
 
     Args:
@@ -252,8 +250,10 @@ class _Kinematics:
             step.say(say(message.format(head=head, link=driver.link, relative=relative, joint=driver.joint)))
             unit = "rad" if turning else "m"
             measures: tuple[str | Output, ...] = (
-                Output("input", name, slides=not turning), f"{unit}/s", f"{unit}/s²"
-            )  # fmt: skip
+                Output("input", name, slides=not turning),
+                f"{unit}/s",
+                f"{unit}/s²",
+            )
             for term, what in zip(book.drive(name), measures, strict=True):
                 if term.is_zero:
                     step.say(say(_("Constant speed: no acceleration of the input.")))

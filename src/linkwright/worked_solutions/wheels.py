@@ -13,32 +13,13 @@ import numpy as np
 from linkwright.core.outputs import Output
 from linkwright.elements.topology import Connection, Group, TreeJoint
 from linkwright.equations.steps import Step
-from linkwright.equations.terms import (
-    TWO,
-    ZERO,
-    Pair,
-    Term,
-    cosine,
-    number,
-    sine,
-    size,
-    symbol,
-    tangent,
-    total,
-)
+from linkwright.equations.terms import TWO, ZERO, Pair, Term, cosine, number, sine, size, symbol, tangent, total
 from linkwright.joints.base import Joint
 from linkwright.joints.cam import CamJoint
 from linkwright.words import _
 from linkwright.worked_solutions.cams import cam_pair
 from linkwright.worked_solutions.contacts import Contact, contact_of
-from linkwright.worked_solutions.higher_pairs import (
-    PairClosure,
-    Slid,
-    Turned,
-    lever,
-    one_by_one,
-    pair_closures,
-)
+from linkwright.worked_solutions.higher_pairs import PairClosure, Slid, Turned, lever, one_by_one, pair_closures
 from linkwright.worked_solutions.places import Places
 from linkwright.worked_solutions.symbols import SymbolTable
 
@@ -167,8 +148,7 @@ class Wheels:
         for row in rows:
             known = row.known_seconds(book, _no_chain)[0] if second else row.known_rates(book)[0]
             left = [
-                row.column(joint)[0] * name
-                for joint, (name, *_unused) in zip(group.unknowns, names, strict=True)
+                row.column(joint)[0] * name for joint, (name, *_unused) in zip(group.unknowns, names, strict=True)
             ]
             formula = total([*left, known])
             if not formula.is_zero:

@@ -58,14 +58,18 @@ SWEPT: dict[str, tuple[Callable[[], lw.Mechanism], str, str]] = {
     "friction, yoke": (lambda: lw.loads(YOKE), "yoke.mass", "input_torque rms"),
     **{
         f"{law}, {load}": (
-            lambda law=law, load=load: slider(law, SLIDER_LOADS[load]), "rod.length", "driver.effort rms"
+            lambda law=law, load=load: slider(law, SLIDER_LOADS[load]),
+            "rod.length",
+            "driver.effort rms",
         )
         for law in (TO_AND_FRO, UNEVEN, SEVERAL_TURNS)
         for load in SLIDER_LOADS
     },
     **{
         f"{law}, {load}": (
-            lambda law=law, load=load: slider(law, BETWEEN_LIMITS[load]), "rod.length", "driver.effort rms"
+            lambda law=law, load=load: slider(law, BETWEEN_LIMITS[load]),
+            "rod.length",
+            "driver.effort rms",
         )
         for law in ONE_WAY
         for load in BETWEEN_LIMITS
@@ -75,7 +79,7 @@ SWEPT: dict[str, tuple[Callable[[], lw.Mechanism], str, str]] = {
         f"triad, {load}": (lambda load=load: pushed_triad(load), "plate.R.x", "driver.effort rms")
         for load in ON_THE_PLATE
     },
-}  # fmt: skip
+}
 
 
 @pytest.mark.rotating
@@ -109,16 +113,16 @@ def found(machine: lw.Mechanism, by: list[str], names: list[str]) -> NumbersOfDe
 
 def ram_between(course: str, load: str) -> lw.Mechanism:
     law, cycle, *_ = INWARDS[course]
-    return lw.loads(
-        RAM.replace("LAW", law).replace("CYCLE", cycle).replace("LOAD", f"direction: 0 deg, {load}")
-    )
+    return lw.loads(RAM.replace("LAW", law).replace("CYCLE", cycle).replace("LOAD", f"direction: 0 deg, {load}"))
 
 
 #: Design numbers of which every design is certain, all of them of one formula: machines, dimensions, numbers.
 CERTAIN: dict[str, tuple[Callable[[], lw.Mechanism], list[str], list[str]]] = {
     **{
         f"ram, {course}, {load}": (
-            lambda course=course, load=load: ram_between(course, load), ["crank.length", "rod.length"], ["mean_power"]
+            lambda course=course, load=load: ram_between(course, load),
+            ["crank.length", "rod.length"],
+            ["mean_power"],
         )
         for course in INWARDS
         for load in BETWEEN
@@ -132,9 +136,7 @@ CERTAIN: dict[str, tuple[Callable[[], lw.Mechanism], list[str], list[str]]] = {
         for course in ("to and fro", "part of a turn", "program")
     },
     **{
-        f"press, {load}": (
-            lambda load=load: press(load), ["rod.length"], ["rms_input_torque", "peak_reaction"]
-        )
+        f"press, {load}": (lambda load=load: press(load), ["rod.length"], ["rms_input_torque", "peak_reaction"])
         for load in LOADS
         if load != "table of output"
     },
@@ -164,9 +166,7 @@ CERTAIN: dict[str, tuple[Callable[[], lw.Mechanism], list[str], list[str]]] = {
         ["coupler.length", "slide.mass", "lobe.phase"],
         ["rms_input_torque", "peak_input_torque"],
     ),
-    "rocking cam": (
-        lambda: lw.loads(ROCKING), ["lobe.phase", "slide.mass"], ["rms_input_torque", "peak_reaction"]
-    ),
+    "rocking cam": (lambda: lw.loads(ROCKING), ["lobe.phase", "slide.mass"], ["rms_input_torque", "peak_reaction"]),
     "printing press": (
         lambda: stored("printing_press"),
         ["rod.length"],
@@ -188,7 +188,7 @@ CERTAIN: dict[str, tuple[Callable[[], lw.Mechanism], list[str], list[str]]] = {
         ["toggle.length"],
         ["speed_fluctuation", "exact_flywheel"],
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.rotating
@@ -251,9 +251,7 @@ def test_numbers_by_arrays_and_compiled_are_equal(model: str, by: str) -> None:
     cycle, factors = found(machine, [by], NAMES), np.linspace(0.98, 1.02, 300)
     factors[7] = 0.01
     columns = {by: machine.dimension(by) * factors}
-    (compiled, certain), (arrays, sure) = (
-        cycle.evaluate(columns, backend=each) for each in ("llvm", "numpy")
-    )
+    (compiled, certain), (arrays, sure) = (cycle.evaluate(columns, backend=each) for each in ("llvm", "numpy"))
     assert not certain[7]
     assert (certain == sure).all()
     assert certain.sum() > 290
@@ -282,9 +280,7 @@ def test_what_moves_the_inputs_is_left_out() -> None:
 def test_designs_may_have_more_limits_than_the_machine_itself() -> None:
     law, cycle, *_ = INWARDS["program"]
     load = "direction: 0 deg, magnitude: 100 N, phase: {of: guide, from: max, to: min}"
-    text = (
-        RAM.replace("LAW", law.replace("2.6 rad", "2.93 rad")).replace("CYCLE", cycle).replace("LOAD", load)
-    )
+    text = RAM.replace("LAW", law.replace("2.6 rad", "2.93 rad")).replace("CYCLE", cycle).replace("LOAD", load)
     machine, names = lw.loads(text), ["mean_power", "rms_input_torque"]
     cycle = found(machine, ["crank.length"], names)
     together, certain = cycle.evaluate({"crank.length": np.array([0.05, 0.09])})

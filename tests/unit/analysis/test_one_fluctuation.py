@@ -6,6 +6,4 @@ from linkwright.reports.settings import Settings
 
 
 def test_flywheels_are_laid_out_for_the_same_coefficient_everywhere() -> None:
-    assert {FLUCTUATION, Settings().fluctuation, *(metric().fluctuation for metric in SIZED.values())} == {
-        0.02
-    }
+    assert {FLUCTUATION, Settings().fluctuation, *(metric().fluctuation for metric in SIZED.values())} == {0.02}

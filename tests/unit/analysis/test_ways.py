@@ -33,9 +33,7 @@ def test_a_cycle_is_cut_where_it_bends_and_nothing_is_halved(text: str, most: in
     """Where friction or a lift bends the torque, few pieces meet everything."""
     machine = lw.loads(text.partition("  press:")[0])
     analysis = Analysis.of(lw.solve_forces(machine))
-    assert np.isfinite(
-        [analysis.part(Summary.of(part)).value for part in ("driver.effort rms", "power mean")]
-    ).all()
+    assert np.isfinite([analysis.part(Summary.of(part)).value for part in ("driver.effort rms", "power mean")]).all()
     assert analysis.cycle is not None
     edges = analysis.cycle.curve(lambda forces: forces.input_torque, "forces", 1).edges
     assert len(edges) < most

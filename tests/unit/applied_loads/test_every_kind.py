@@ -273,9 +273,7 @@ def mirrored_load(load: Load) -> Load:
 @each_load
 def test_wrenches_in_the_mirror(kind: str, keys: dict[str, Any]) -> None:
     mechanism, load = built(kind, keys)
-    bodies = {
-        name: Body(b.place.conjugate, -b.angle, b.velocity.conjugate, -b.omega) for name, b in BODIES.items()
-    }
+    bodies = {name: Body(b.place.conjugate, -b.angle, b.velocity.conjugate, -b.omega) for name, b in BODIES.items()}
     other = mirrored_load(load)
     before = summary(load.wrenches(FreeSite(mechanism, load, BODIES)))
     after = summary(other.wrenches(FreeSite(mechanism, other, bodies, mirrored=True)))
@@ -318,9 +316,7 @@ ENERGIES: dict[str, Callable[[FreeSite], float]] = {
     "torsion_spring": twisted,
     "pressure": pushed,
     "force": weighed,
-    "torque": lambda site: (
-        -site.load.magnitude.size.value * (site.bodies["arm"].angle - site.bodies["bar"].angle)
-    ),
+    "torque": lambda site: -site.load.magnitude.size.value * (site.bodies["arm"].angle - site.bodies["bar"].angle),
     Magnet.kind: lambda site: site.load.strength / site.load.reach * math.log(length(site)),
 }
 DISSIPATING = {"damper", "torsion_damper"}

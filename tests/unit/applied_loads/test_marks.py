@@ -59,14 +59,7 @@ TO_AND_FRO = 'position: "90 deg*cos(2*pi*t/(1 s))"'
 
 @pytest.mark.parametrize("size", [4.0, -4.0])
 @pytest.mark.parametrize(
-    "load",
-    [
-        "direction: 200 deg",
-        "in_link: -35 deg",
-        "normal_to: [B, P]",
-        "along: [B, P]",
-        "opposes: velocity",
-    ],
+    "load", ["direction: 200 deg", "in_link: -35 deg", "normal_to: [B, P]", "along: [B, P]", "opposes: velocity"]
 )
 def test_arrows_of_forces_in_every_way_of_giving_a_direction(load: str, size: float) -> None:
     text = EVERY.replace("LAW", TURNING).replace("LOAD", f"{FORCE}, {load}, magnitude: {size} N")
@@ -82,16 +75,12 @@ def test_an_arrow_of_components_and_one_against_a_motion_that_only_begins() -> N
     motion = lw.solve_motion(lw.loads(text), steps=3)
     assert mark_of(motion.mechanism.loads["push"], motion, 1).angle == pytest.approx(np.arctan2(4, -3))
     load = "kind: force, on: crank, at: A, opposes: velocity, magnitude: 1 N"
-    resting = lw.solve_motion(
-        lw.loads(EVERY.replace("LAW", TO_AND_FRO).replace("LOAD", load)), times=[0.0, 0.01]
-    )
+    resting = lw.solve_motion(lw.loads(EVERY.replace("LAW", TO_AND_FRO).replace("LOAD", load)), times=[0.0, 0.01])
     acceleration = resting.point("A").acceleration[0]
     assert np.hypot(*resting.point("A").velocity[0]) < 1e-12
     for k in (0, 1):
         angle = mark_of(resting.mechanism.loads["push"], resting, k).angle
-        assert [np.cos(angle), np.sin(angle)] @ acceleration == pytest.approx(
-            -np.hypot(*acceleration), rel=1e-2
-        )
+        assert [np.cos(angle), np.sin(angle)] @ acceleration == pytest.approx(-np.hypot(*acceleration), rel=1e-2)
 
 
 @pytest.mark.parametrize(

@@ -115,9 +115,7 @@ def test_moving_ramps_between_reversals() -> None:
 def test_the_swing_is_between_the_outermost_limits() -> None:
     signals = Turning([10, 100, 190, 280])
     inputs = {5: ("max", 1.0), 95: ("min", 0.2), 185: ("max", 0.4), 275: ("min", -1.0)}
-    limits = [
-        Limit(float(np.radians(q)), q / 360 * PERIOD, value, kind) for q, (kind, value) in inputs.items()
-    ]
+    limits = [Limit(float(np.radians(q)), q / 360 * PERIOD, value, kind) for q, (kind, value) in inputs.items()]
     signals.limits = lambda _: limits  # type: ignore[method-assign]
     assert on(signals, SwingPhase(JAW, "max", "min")) == [True, True, True, False]
 

@@ -22,9 +22,7 @@ class Turning:
     ok = np.ones(1, dtype=bool)
     closes = None
 
-    def __init__(
-        self, degrees: Sequence[float], *, speed: float = 1.0, lag: float = 0.0, rotary: bool = True
-    ):
+    def __init__(self, degrees: Sequence[float], *, speed: float = 1.0, lag: float = 0.0, rotary: bool = True):
         self.input = np.radians(np.asarray(degrees, dtype=float))
         self.heading, self.lag, self.rotary = int(np.sign(speed)), np.radians(lag), rotary
         self.rate = speed * 2 * np.pi / PERIOD

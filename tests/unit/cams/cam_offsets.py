@@ -43,18 +43,12 @@ class RandomCam:
     def lifts(self, phi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Lift and its rate, from the laws' textbook formulas."""
         formulas = {
-            "cycloidal": (
-                lambda u: u - np.sin(2 * np.pi * u) / (2 * np.pi),
-                lambda u: 1 - np.cos(2 * np.pi * u),
-            ),
+            "cycloidal": (lambda u: u - np.sin(2 * np.pi * u) / (2 * np.pi), lambda u: 1 - np.cos(2 * np.pi * u)),
             "polynomial_345": (
                 lambda u: 10 * u**3 - 15 * u**4 + 6 * u**5,
                 lambda u: 30 * u**2 - 60 * u**3 + 30 * u**4,
             ),
-            "simple_harmonic": (
-                lambda u: 0.5 - 0.5 * np.cos(np.pi * u),
-                lambda u: 0.5 * np.pi * np.sin(np.pi * u),
-            ),
+            "simple_harmonic": (lambda u: 0.5 - 0.5 * np.cos(np.pi * u), lambda u: 0.5 * np.pi * np.sin(np.pi * u)),
         }
         rise, dwell, fall, _ = self.angles
         up = np.clip(phi / rise, 0, 1)

@@ -16,12 +16,7 @@ def program(rise: float = 0.024, law: str = "cycloidal", beta: float = 90.0) -> 
     over = radians(beta)
     rest = (2 * math.pi - 2 * over) / 2
     return lw.MotionProgram(
-        (
-            lw.Segment(over, rise, law=law),
-            lw.Segment(rest),
-            lw.Segment(over, -rise, law=law),
-            lw.Segment(rest),
-        )
+        (lw.Segment(over, rise, law=law), lw.Segment(rest), lw.Segment(over, -rise, law=law), lw.Segment(rest))
     )
 
 

@@ -12,9 +12,16 @@ from linkwright.words import _
 
 INTERRUPTED = words.say(_("interrupted")) + "\n"
 SEARCH = [
-    "optimize", "gallery:jaw_crusher_sixbar", "--vary", "pitman.length=1.15..1.35m", "crank.length=80..120mm",
-    "--keep", "jaw.angle range=same within 1 %", "--evaluations", "200",
-]  # fmt: skip
+    "optimize",
+    "gallery:jaw_crusher_sixbar",
+    "--vary",
+    "pitman.length=1.15..1.35m",
+    "crank.length=80..120mm",
+    "--keep",
+    "jaw.angle range=same within 1 %",
+    "--evaluations",
+    "200",
+]
 
 
 def interrupt(*_: object, **__: object) -> None:
@@ -43,9 +50,7 @@ except KeyboardInterrupt:
     assert (done.stdout, done.stderr) == ("came again\n", "")
 
 
-def test_an_interrupted_command_says_so(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_interrupted_command_says_so(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setattr("linkwright.cli.source.read_text", interrupt)
     assert main(["solve", "gallery:kite"]) == 130
     assert capsys.readouterr().err == INTERRUPTED
@@ -79,9 +84,7 @@ threading.Thread(target=threading.Event().wait).start()
 sys.argv = ["linkwright", "solve", "gallery:kite"]
 raise SystemExit(main())
 """
-    done = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=False, timeout=60
-    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False, timeout=60)
     assert (done.returncode, done.stdout, done.stderr) == (130, "begun\n", INTERRUPTED)
 
 
@@ -112,14 +115,10 @@ def test_an_interruption_before_the_first_population_leaves_a_file_to_go_on_from
     monkeypatch.chdir(tmp_path)
     asked = [*SEARCH, "--minimize", "flywheel", "--evaluations", "100"]
     with monkeypatch.context() as patched:
-        patched.setattr(
-            "linkwright.designs.optimise.optimize.Task", interrupt
-        )  # before anything has been measured
+        patched.setattr("linkwright.designs.optimise.optimize.Task", interrupt)  # before anything has been measured
         assert main(asked) == 130
         (left,) = tmp_path.iterdir()
-        going_on = words.say(
-            _("Interrupted; run the same command with --state {path} to go on.", path=left.name)
-        )
+        going_on = words.say(_("Interrupted; run the same command with --state {path} to go on.", path=left.name))
         assert capsys.readouterr().err == f"{going_on}\n{INTERRUPTED}"
         kept = left.read_bytes()
         assert main([*asked, "--state", left.name, "--lang", "zh"]) == 130

@@ -50,19 +50,26 @@ RESULTS: dict[str, tuple[list[str], Callable[[], Any]]] = {
         lambda: lw.metrics(lw.solve_forces(crusher(), steps=36)),
     ),
     "optimize": (
-        ["gallery:crank_rocker", "--vary", "coupler.length=3.4..3.6m", "--minimize", "rocker.angle range",
-         "--evaluations", "20"],
+        [
+            "gallery:crank_rocker",
+            "--vary",
+            "coupler.length=3.4..3.6m",
+            "--minimize",
+            "rocker.angle range",
+            "--evaluations",
+            "20",
+        ],
         lambda: lw.optimize(
-            "gallery:crank_rocker", vary={"coupler.length": "3.4..3.6m"}, minimize="rocker.angle range",
+            "gallery:crank_rocker",
+            vary={"coupler.length": "3.4..3.6m"},
+            minimize="rocker.angle range",
             evaluations=20,
         ),
     ),
     "structure": (["gallery:kite"], lambda: lw.structure(lw.load("gallery:kite"))),
     "study": (
         ["gallery:crank_rocker", "--vary", "coupler.length=3.4..3.6m:2", "--metrics", "swing_angle"],
-        lambda: lw.study(
-            lw.load("gallery:crank_rocker"), {"coupler.length": "3.4..3.6m:2"}, metrics=["swing_angle"]
-        ),
+        lambda: lw.study(lw.load("gallery:crank_rocker"), {"coupler.length": "3.4..3.6m:2"}, metrics=["swing_angle"]),
     ),
     "synthesize": (
         ["slider_crank", "stroke=397.5 mm", "rod_ratio=3.55"],
@@ -79,7 +86,7 @@ RESULTS: dict[str, tuple[list[str], Callable[[], Any]]] = {
     "statistics": (["gallery:spring_rate"], lambda: found("spring_rate")),
     "trajectory": (["gallery:thrown_ball"], lambda: found("thrown_ball")),
     "vibration": (["gallery:free_decay"], lambda: found("free_decay")),
-}  # fmt: skip
+}
 
 
 def test_every_kind_of_calculation_is_here() -> None:

@@ -71,12 +71,7 @@ SLIPS: list[tuple[str, list[str], str, dict[str, object]]] = [
     ("study", ["m", "--vary"], "cli.needs_value", {"name": "--vary"}),
     ("study", ["m"], "cli.missing", {"names": {"--vary"}}),
     ("study", ["m", "--vary", "a=1", "--sampling", "lhs"], "cli.bad_choice", {"choices": {"grid", "sobol"}}),
-    (
-        "solve",
-        ["m", "--times", "1 s", "--at", "0 deg"],
-        "cli.not_together",
-        {"name": "--times", "other": "--at"},
-    ),
+    ("solve", ["m", "--times", "1 s", "--at", "0 deg"], "cli.not_together", {"name": "--times", "other": "--at"}),
     ("solve", ["m", "n"], "cli.unknown_argument", {"name": "n"}),
     ("solve", ["m", "--colums", "x"], "cli.unknown_option", {"name": "--colums", "offer": "--columns"}),
     ("solve", ["m", "-x"], "cli.unknown_option", {"name": "-x", "command": "linkwright solve"}),

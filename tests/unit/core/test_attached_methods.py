@@ -39,15 +39,13 @@ def test_the_code_takes_what_is_declared(name: str, module: str) -> None:
     owner, method = name.split(".")
     code = loaded(ATTACHED[name])
     found = inspect.getattr_static(getattr(importlib.import_module(module), owner), method)
-    taken = inspect.signature(
-        getattr(found, "fget", None) or getattr(found, "func", found)
-    ).parameters.values()
+    taken = inspect.signature(getattr(found, "fget", None) or getattr(found, "func", found)).parameters.values()
     own, empty = inspect.signature(code), inspect.Parameter.empty
-    assert own.bind(*(each.name for each in taken if each.kind is each.POSITIONAL_OR_KEYWORD),
-                    **{each.name: each.name for each in taken if each.kind is each.KEYWORD_ONLY})  # fmt: skip
-    defaults = [
-        (each.default, own.parameters[each.name].default) for each in taken if each.name in own.parameters
-    ]
+    assert own.bind(
+        *(each.name for each in taken if each.kind is each.POSITIONAL_OR_KEYWORD),
+        **{each.name: each.name for each in taken if each.kind is each.KEYWORD_ONLY},
+    )
+    defaults = [(each.default, own.parameters[each.name].default) for each in taken if each.name in own.parameters]
     assert all(first == second for first, second in defaults if second is not empty)
 
 

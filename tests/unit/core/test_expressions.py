@@ -72,11 +72,23 @@ def test_a_wrong_expression_is_refused_with_its_column(
 D = units.DIMENSIONS
 #: Parameters by name: what they are, and their values in SI.
 PARAMETERS = {
-    "r": ("length", 2.0), "phi": ("angle", 3.0), "w": ("angular_velocity", 5.0), "f": ("frequency", 7.0),
-    "T": ("time", 11.0), "M": ("torque", 13.0), "k": ("torsional_stiffness", 17.0), "c": ("stiffness", 19.0),
-    "mass": ("mass", 23.0), "v": ("velocity", 29.0), "G": ("pressure", 31.0), "J": ("second_moment_of_area", 37.0),
-    "g": ("acceleration", 9.81), "n": ("dimensionless", 41.0), "t": ("time", 47.0), "h": ("time", 53.0),
-}  # fmt: skip
+    "r": ("length", 2.0),
+    "phi": ("angle", 3.0),
+    "w": ("angular_velocity", 5.0),
+    "f": ("frequency", 7.0),
+    "T": ("time", 11.0),
+    "M": ("torque", 13.0),
+    "k": ("torsional_stiffness", 17.0),
+    "c": ("stiffness", 19.0),
+    "mass": ("mass", 23.0),
+    "v": ("velocity", 29.0),
+    "G": ("pressure", 31.0),
+    "J": ("second_moment_of_area", 37.0),
+    "g": ("acceleration", 9.81),
+    "n": ("dimensionless", 41.0),
+    "t": ("time", 47.0),
+    "h": ("time", 53.0),
+}
 TURN = 2 * math.pi
 
 
@@ -112,9 +124,7 @@ def read(text: str, dimension: str) -> float:
         ("2*f", "frequency", 14.0),
     ],
 )
-def test_a_radian_is_no_unit_of_a_product_and_cycles_are_turns(
-    text: str, dimension: str, value: float
-) -> None:
+def test_a_radian_is_no_unit_of_a_product_and_cycles_are_turns(text: str, dimension: str, value: float) -> None:
     assert read(text, dimension) == pytest.approx(value, rel=1e-14)
 
 

@@ -14,8 +14,14 @@ NAMES = [
     ("v:jaw.D.y", Output("velocity", "jaw.D", "y"), "jaw.D.velocity.y", "jaw.D.velocity.y", None, "velocity"),
     ("a:jaw.@centre.x", Output("acceleration", "jaw.@centre", "x"), None, None, None, "acceleration"),
     ("e:jaw.y", Output("direction", "jaw", "y"), None, None, None, "dimensionless"),
-    ("w:jaw", Output("angular_velocity", "jaw"), "jaw.angular_velocity", "jaw.angular_velocity", None,
-     "angular_velocity"),
+    (
+        "w:jaw",
+        Output("angular_velocity", "jaw"),
+        "jaw.angular_velocity",
+        "jaw.angular_velocity",
+        None,
+        "angular_velocity",
+    ),
     ("s:ram", Output("displacement", "ram"), "ram.displacement", "ram.displacement", "ram", "length"),
     ("sv:ram", Output("slide_velocity", "ram"), "ram.velocity", "ram.velocity", None, "velocity"),
     ("fact:RRR:a|distance²", Output("fact", "RRR:a", on="distance²"), None, None, None, "dimensionless"),
@@ -23,14 +29,20 @@ NAMES = [
     ("friction:O5|jaw", Output("friction", "O5", on="jaw"), None, None, None, ""),
     ("outcome", Output("outcome"), None, None, None, "dimensionless"),
     ("r:O5|jaw.x", Output("reaction", "O5", "x", "jaw"), "reaction O5 on jaw.x", "O5 on jaw.x", None, "force"),
-    ("c:ram|block", Output("couple", "ram", on="block"), "couple ram on block", "ram on block.couple", None,
-     "torque"),
+    (
+        "c:ram|block",
+        Output("couple", "ram", on="block"),
+        "couple ram on block",
+        "ram on block.couple",
+        None,
+        "torque",
+    ),
     ("effort:crank", Output("effort", "crank"), "crank.effort", "crank.effort", None, "torque"),
     ("on:jaw.m", Output("applied", "jaw", "m"), None, None, None, "torque"),
     ("shake.x", Output("shaking_force", "", "x"), "shaking_force.x", "shaking_force.x", None, "force"),
     ("shake_moment", Output("shaking_moment"), "shaking_moment", "shaking_moment", None, "torque"),
     ("driver_power", Output("power"), "power", None, None, "power"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("row", "output", "words", "column", "file", "dimension"), NAMES)

@@ -8,8 +8,6 @@ import pytest
 from linkwright.core.read_only import FrozenDict, frozen
 
 
-def test_mappings_are_made_read_only_while_another_thread_imports_numpy(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_mappings_are_made_read_only_while_another_thread_imports_numpy(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "numpy", ModuleType("numpy"))
     assert isinstance(frozen({"length": [1.0]}), FrozenDict)

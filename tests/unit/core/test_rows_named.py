@@ -28,9 +28,7 @@ def told(text: str) -> Iterator[int]:
             if isinstance(first, ast.Constant) and str(first.value) in PREFIXES:
                 yield node.lineno
         elif isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in TAKING:
-            given = [
-                each.value for arg in node.args for each in ast.walk(arg) if isinstance(each, ast.Constant)
-            ]
+            given = [each.value for arg in node.args for each in ast.walk(arg) if isinstance(each, ast.Constant)]
             if any(each in PREFIXES for each in given):
                 yield node.lineno
 
@@ -45,8 +43,7 @@ def test_rows_are_written_and_read_in_one_place() -> None:
 
 
 @pytest.mark.parametrize(
-    "line",
-    ['f"r:{joint}|{link}"', 'f"mode:{group}"', 'name.startswith("w:")', 'a.startswith(("p:", "q:"))'],
+    "line", ['f"r:{joint}|{link}"', 'f"mode:{group}"', 'name.startswith("w:")', 'a.startswith(("p:", "q:"))']
 )
 def test_a_row_is_found(line: str) -> None:
     assert list(told(line))

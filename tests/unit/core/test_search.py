@@ -25,10 +25,7 @@ def test_zeros_of_many_functions_side_by_side():
         (lambda x: (x**9 - 1e-9, 9 * x**8), 0.1),  # flat where Newton's steps begin
         (lambda x: (np.where(x < 0.7, -1.0, 2.0), 0.0 * x), 0.7),  # a jump
         (lambda x: (1.0 / (x - 0.3), -1.0 / (x - 0.3) ** 2), 0.3),  # a pole
-        (
-            lambda x: (np.arctan(50 * (x - 0.9)), 50 / (1 + (50 * (x - 0.9)) ** 2)),
-            0.9,
-        ),  # Newton alone diverges
+        (lambda x: (np.arctan(50 * (x - 0.9)), 50 / (1 + (50 * (x - 0.9)) ** 2)), 0.9),  # Newton alone diverges
     ],
 )
 def test_zeros_of_functions_that_mislead_newton(function, place):

@@ -47,32 +47,22 @@ def results() -> dict[str, lw.Tabular]:
 
 
 @pytest.mark.parametrize("name", ["study", "slopes", "metrics", "structure", "beam", "balance"])
-def test_every_result_is_written_by_its_tables(
-    results: dict[str, lw.Tabular], name: str, tmp_path: Path
-) -> None:
+def test_every_result_is_written_by_its_tables(results: dict[str, lw.Tabular], name: str, tmp_path: Path) -> None:
     found = results[name]
     written = {ending: lw.export(found, tmp_path / f"a.{ending}") for ending in ("csv", "json", "md", "html")}
     shown = [cell.strip() for table in found.tables() for row in table.texts()[1:] for cell in row]
     marked = re.sub(r"\\(.)", r"\1", written["md"].read_text("utf-8"))
     assert shown and all(cell in marked for cell in shown)
-    assert written["html"].read_text("utf-8").count("<tr>") == sum(
-        len(t.rows) + 1 for t in found.tables() if t.rows
-    )
+    assert written["html"].read_text("utf-8").count("<tr>") == sum(len(t.rows) + 1 for t in found.tables() if t.rows)
     data = json.loads(written["json"].read_text("utf-8"))
     assert set(data) == set(found.data())
     columns, rows = found.columns(), list(csv.reader(io.StringIO(written["csv"].read_text("utf-8"))))
-    assert (
-        rows[0] == list(columns)
-        if columns
-        else len([row for row in rows if row]) >= len(found.tables()[-1].rows)
-    )
+    assert rows[0] == list(columns) if columns else len([row for row in rows if row]) >= len(found.tables()[-1].rows)
     with refused("export.no_tables", name="dxf"):
         lw.export(found, tmp_path / "a.dxf")
 
 
-def test_numbers_of_excel_files_are_numbers_in_the_shown_unit(
-    results: dict[str, lw.Tabular], tmp_path: Path
-) -> None:
+def test_numbers_of_excel_files_are_numbers_in_the_shown_unit(results: dict[str, lw.Tabular], tmp_path: Path) -> None:
     openpyxl = pytest.importorskip("openpyxl")
     pytest.importorskip("xlsxwriter")
     balance = results["balance"]

@@ -149,9 +149,16 @@ def test_a_refusal_says_what_is_wrong_at_which_column_and_what_to_write(
 
 @pytest.mark.parametrize(
     ("text", "dimension", "value"),
-    [("3 N/mm", "stiffness", 3000.0), ("-2.5e1 mm", "length", -0.025), ("2 1/rad", "per_angle", None),
-     ("2 1/s", "frequency", None), ("60mm", "length", 0.06), ("2 mm", "mass", None), ("1e999 m", "length", None)],
-)  # fmt: skip
+    [
+        ("3 N/mm", "stiffness", 3000.0),
+        ("-2.5e1 mm", "length", -0.025),
+        ("2 1/rad", "per_angle", None),
+        ("2 1/s", "frequency", None),
+        ("60mm", "length", 0.06),
+        ("2 mm", "mass", None),
+        ("1e999 m", "length", None),
+    ],
+)
 def test_a_plain_quantity_is_read_at_once_and_anything_else_looked_at_more_closely(
     text: str, dimension: str, value: float | None
 ) -> None:
@@ -169,16 +176,33 @@ def test_largest_sizes_are_round_and_a_velocity_s_is_that_of_light() -> None:
 
 @pytest.mark.parametrize(
     ("quantity", "factors"),
-    [("torque", "force length"), ("power", "force velocity"), ("area", "length length"), ("volume", "area length"),
-     ("inertia", "mass area"), ("mass_moment", "mass length"), ("second_moment_of_area", "area area"),
-     ("velocity", "length frequency"), ("acceleration", "velocity frequency"), ("force", "mass acceleration"),
-     ("angular_velocity", "angle frequency"), ("angular_acceleration", "angular_velocity frequency"),
-     ("length", "length_per_angle angle"), ("length_per_angle", "length_per_angle_squared angle"),
-     ("dimensionless", "per_angle angle"), ("dimensionless", "time frequency"), ("force", "pressure area"),
-     ("force", "stiffness length"), ("force", "damping velocity"), ("force", "line_load length"),
-     ("torque", "torsional_stiffness angle"), ("torque", "torsional_damping angular_velocity"),
-     ("mass", "density volume"), ("mass", "linear_density length")],
-)  # fmt: skip
+    [
+        ("torque", "force length"),
+        ("power", "force velocity"),
+        ("area", "length length"),
+        ("volume", "area length"),
+        ("inertia", "mass area"),
+        ("mass_moment", "mass length"),
+        ("second_moment_of_area", "area area"),
+        ("velocity", "length frequency"),
+        ("acceleration", "velocity frequency"),
+        ("force", "mass acceleration"),
+        ("angular_velocity", "angle frequency"),
+        ("angular_acceleration", "angular_velocity frequency"),
+        ("length", "length_per_angle angle"),
+        ("length_per_angle", "length_per_angle_squared angle"),
+        ("dimensionless", "per_angle angle"),
+        ("dimensionless", "time frequency"),
+        ("force", "pressure area"),
+        ("force", "stiffness length"),
+        ("force", "damping velocity"),
+        ("force", "line_load length"),
+        ("torque", "torsional_stiffness angle"),
+        ("torque", "torsional_damping angular_velocity"),
+        ("mass", "density volume"),
+        ("mass", "linear_density length"),
+    ],
+)
 def test_dimensions_multiply_as_their_definitions_say(quantity: str, factors: str) -> None:
     a, b = (units.DIMENSIONS[name] for name in factors.split())
     assert units.times(a, b) == units.DIMENSIONS[quantity]
@@ -188,9 +212,13 @@ def test_dimensions_multiply_as_their_definitions_say(quantity: str, factors: st
 
 @pytest.mark.parametrize(
     ("dimension", "symbol", "named"),
-    [((0.5, 0, 0, 0), "m^0.5", False), ((1, 0, -1, 1), "m·s^-1·rad", False), ((1, 1, 0, 0), "kg·m", True),
-     ((0, 0, 0, 0), "", True)],
-)  # fmt: skip
+    [
+        ((0.5, 0, 0, 0), "m^0.5", False),
+        ((1, 0, -1, 1), "m·s^-1·rad", False),
+        ((1, 1, 0, 0), "kg·m", True),
+        ((0, 0, 0, 0), "", True),
+    ],
+)
 def test_any_dimension_has_a_symbol_and_a_name(dimension: units.Dimension, symbol: str, named: bool) -> None:
     """What has no name of its own is named by its symbol."""
     name = units.name_of(dimension)

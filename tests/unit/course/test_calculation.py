@@ -9,9 +9,7 @@ from linkwright.course.grade import MISTAKE_NAMES
 from linkwright.course.mistakes import MISTAKES
 
 
-@pytest.mark.parametrize(
-    "name", ["jaw_crusher_sixbar", "shaper_quick_return", "dyad_rpr", "triad", "toggle_press"]
-)
+@pytest.mark.parametrize("name", ["jaw_crusher_sixbar", "shaper_quick_return", "dyad_rpr", "triad", "toggle_press"])
 def test_a_worked_solution_can_be_reckoned_again(name: str) -> None:
     """Every line from those before it gives the solver's numbers."""
     forces = store.forces(name, 36)

@@ -90,11 +90,7 @@ def test_the_highest_of_peaks_that_polynomials_do_not_meet():
     assert most.value == pytest.approx(spikes(near).max(), rel=1e-13)
     assert most.place == pytest.approx(near[spikes(near).argmax()], abs=1e-7)
     assert least.value == pytest.approx(spikes(math.pi * np.arange(3)).min(), rel=1e-10)
-    assert least.place in (
-        pytest.approx(0.0, abs=1e-11),
-        pytest.approx(math.pi, abs=1e-11),
-        pytest.approx(TURN),
-    )
+    assert least.place in (pytest.approx(0.0, abs=1e-11), pytest.approx(math.pi, abs=1e-11), pytest.approx(TURN))
 
 
 def test_the_larger_side_of_a_jump_at_an_unknown_place():

@@ -128,10 +128,7 @@ def test_what_a_cluster_finds_is_kept_piece_by_piece(tmp_path: Path, monkeypatch
             raise KeyboardInterrupt
 
     options = {"n_workers": 1, "threads_per_worker": 1, "dashboard_address": ":0", "processes": False}
-    with (
-        distributed.LocalCluster(**options) as cluster,
-        distributed.Client(cluster, set_as_default=False) as client,
-    ):
+    with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster, set_as_default=False) as client:
         original = client.submit
 
         def counted(timed: object, work: object, *task: object, pure: bool) -> object:
@@ -146,9 +143,7 @@ def test_what_a_cluster_finds_is_kept_piece_by_piece(tmp_path: Path, monkeypatch
         with lw.checkpointing(state, "crank", 1), lw.on_cluster(client):
             resumed, spread = lw.study(crank, **asked), [*sweep_curves(crank, columns, **curves)]
         pieces = -(-int(whole.ok.sum()) // PIECE)
-        assert (
-            len(given) == pieces - 3 + 2
-        )  # three of the study and both of its sweep were there; two of curves
+        assert len(given) == pieces - 3 + 2  # three of the study and both of its sweep were there; two of curves
         given.clear()
         with lw.checkpointing(state, "crank", 1), lw.on_cluster(client):
             again = lw.study(crank, **asked)

@@ -17,14 +17,10 @@ def test_a_range_is_what_it_says() -> None:
     machine = store.machine("jaw_crusher_sixbar")
     found = parse_range(machine, "pitman.length", "1.2..1.3 m:11")
     assert found.values == pytest.approx(np.linspace(1.2, 1.3, 11), rel=1e-15)
-    assert parse_range(machine, "pitman.length", "1200 mm .. 1.3 m : 3").values == pytest.approx(
-        [1.2, 1.25, 1.3]
-    )
+    assert parse_range(machine, "pitman.length", "1200 mm .. 1.3 m : 3").values == pytest.approx([1.2, 1.25, 1.3])
     assert parse_range(machine, "jaw.mass", "700, 900 kg").values.tolist() == [700.0, 900.0]
     assert parse_range(machine, "frame.O3.y", "-1.1..-0.9 m:2").values == pytest.approx([-1.1, -0.9])
-    assert parse_range(machine, "driver.speed", "-60..60 rpm:2").values == pytest.approx(
-        [-2 * np.pi, 2 * np.pi]
-    )
+    assert parse_range(machine, "driver.speed", "-60..60 rpm:2").values == pytest.approx([-2 * np.pi, 2 * np.pi])
     assert parse_range(machine, "jaw.mass", [1.0, 2.0]).values.tolist() == [1.0, 2.0]
     assert len(parse_range(machine, "jaw.mass", "700..900 kg").values) == 11
     assert parse_range(machine, "pitman.length", "1200 mm .. 1300 mm : 3").shown(1.25) == "1250 mm"
@@ -61,9 +57,6 @@ def test_a_million_designs_are_the_most() -> None:
     rows, columns = (Range(name, np.arange(1000.0)) for name in ("a", "b"))
     designs = grid([rows, columns])
     assert len(designs["a"]) == 1_000_000
-    assert (designs["a"][[999, 1000]], designs["b"][[999, 1000]]) == (
-        pytest.approx([0, 1]),
-        pytest.approx([999, 0]),
-    )
+    assert (designs["a"][[999, 1000]], designs["b"][[999, 1000]]) == (pytest.approx([0, 1]), pytest.approx([999, 0]))
     with refused("study.grid_large", count=1_001_000, most=1_000_000):
         grid([rows, Range("c", np.arange(1001.0))])

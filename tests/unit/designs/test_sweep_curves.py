@@ -71,12 +71,7 @@ def test_curves_of_designs_are_those_of_the_machines(model: str, backend: str) -
     outputs = [f"{link}.angular_velocity", "driver.effort"]
     done: list[tuple[int, int]] = []
     parts = sweep_curves(
-        mechanism,
-        {by: lengths},
-        outputs=outputs,
-        steps=24,
-        backend=backend,
-        progress=lambda *n: done.append(n),
+        mechanism, {by: lengths}, outputs=outputs, steps=24, backend=backend, progress=lambda *n: done.append(n)
     )
     ((where, curves),) = parts
     assert (where.start, where.stop) == (0, 3) and done == [(3, 3)] and list(curves) == outputs
@@ -95,11 +90,7 @@ def test_curves_and_summaries_through_change_points(backend: Backend) -> None:
     linkage = replace(store.machine("parallelogram"), cycle=None)
     steps, masses = 25, [1.0, 2.0]
     ((where, curves),) = sweep_curves(
-        linkage,
-        {"coupler.mass": masses},
-        outputs=["B.x", "rocker.angular_velocity"],
-        steps=steps,
-        backend=backend,
+        linkage, {"coupler.mass": masses}, outputs=["B.x", "rocker.angular_velocity"], steps=steps, backend=backend
     )
     turn = np.pi / 2 + 2 * np.pi * np.arange(steps) / steps
     assert where == slice(0, 2) and len(curves) == 2

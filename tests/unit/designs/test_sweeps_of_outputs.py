@@ -43,11 +43,7 @@ MACHINES = {
     "conveyor": (lambda: stored("swing_conveyor"), "crank.length", ("driver.effort", "F.x")),
     "cam": (lambda: lw.loads(UNEVEN), "slide.mass", ("driver.effort", "P.velocity")),
     "triad": (lambda: stored("triad"), "bar_1.mass", ("driver.effort", "R.velocity")),
-    "change point": (
-        lambda: stored("change_point_fourbar"),
-        "coupler.mass",
-        ("driver.effort", "B.velocity.x"),
-    ),
+    "change point": (lambda: stored("change_point_fourbar"), "coupler.mass", ("driver.effort", "B.velocity.x")),
 }
 
 
@@ -60,18 +56,14 @@ def test_summaries_are_those_of_each_machine_alone(name: str) -> None:
     found = lw.sweep(mechanism, vary, outputs=asked, backend="numpy")
     assert found.ok.all() and found.notes == found.of_motion
     compared = lw.study(mechanism, {by: [*map(float, vary[by])]}, metrics=asked)
-    near = [
-        each for each in asked if each.split()[-1] in ("min", "max", "peak", "range") or "angle" not in each
-    ]
+    near = [each for each in asked if each.split()[-1] in ("min", "max", "peak", "range") or "angle" not in each]
     sampled = lw.sweep(mechanism, vary, outputs=near, steps=FINE)
     for k, value in enumerate(vary[by]):
         analysis = Analysis.of(lw.solve_forces(mechanism.with_dimensions({by: float(value)})))
         for each in asked:
             size = found[f"{each.rpartition(' ')[0]} peak"][k]
             alone = measured(each, analysis)
-            assert alone is not None and compared[each][k] == pytest.approx(
-                alone.value, rel=1e-9, abs=1e-9 * size
-            )
+            assert alone is not None and compared[each][k] == pytest.approx(alone.value, rel=1e-9, abs=1e-9 * size)
             assert found[each][k] == pytest.approx(alone.value, rel=1e-9, abs=1e-9 * size), each
             if each in near and not each.split()[-1].startswith("arg"):
                 assert found[each][k] == pytest.approx(sampled[each][k], abs=NEAR * size), each
@@ -110,11 +102,7 @@ def test_a_six_bar_that_is_partly_reached_has_the_numbers_of_what_it_reaches() -
 @pytest.mark.parametrize(
     ("name", "by", "terms"),
     [
-        (
-            "jaw_crusher_sixbar",
-            "pitman.length",
-            ["driver.effort max", "reaction O5 on jaw rms", "jaw.angle range"],
-        ),
+        ("jaw_crusher_sixbar", "pitman.length", ["driver.effort max", "reaction O5 on jaw rms", "jaw.angle range"]),
         ("swing_conveyor", "coupler.length", ["driver.effort peak", "F.velocity rms", "F.x min"]),
     ],
 )
@@ -138,10 +126,7 @@ def torque(degrees: float) -> float:
 
 def test_a_sweep_says_how_far_its_peaks_are_from_those_between_positions() -> None:
     found = lw.sweep(
-        lw.loads(PRESS),
-        {"crank.length": LENGTHS},
-        outputs=["driver.effort max", "peak_input_torque"],
-        steps=36,
+        lw.loads(PRESS), {"crank.length": LENGTHS}, outputs=["driver.effort max", "peak_input_torque"], steps=36
     )
     assert found["driver.effort max"][1] == pytest.approx(torque(50.0), rel=1e-12)
     assert found["peak_input_torque"][1] == pytest.approx(-torque(170.0), rel=1e-9)

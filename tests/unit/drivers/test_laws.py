@@ -110,9 +110,7 @@ def test_a_program_is_repeated_where_its_velocity_goes_on() -> None:
     assert found.natural_duration() == 1.5 and found.span() == (-math.inf, math.inf)
     assert found.coordinate(t + 3.0)[0] == pytest.approx(found.coordinate(t)[0], abs=1e-12)
     climbs = lw.loads(MODEL.replace("LAW", RISES.replace("fall", "rise"))).drivers["turn"].law
-    assert climbs.coordinate(t + 1.5)[0] == pytest.approx(
-        climbs.coordinate(t)[0] + math.radians(100), abs=1e-12
-    )
+    assert climbs.coordinate(t + 1.5)[0] == pytest.approx(climbs.coordinate(t)[0] + math.radians(100), abs=1e-12)
 
 
 def test_a_program_that_begins_and_ends_with_the_same_velocity_goes_on_with_it() -> None:
@@ -138,9 +136,7 @@ def test_of_constant_speed() -> None:
     speed = -math.pi
     assert found.constant_speed == pytest.approx(speed) and found.natural_duration() == pytest.approx(2.0)
     assert found.at(0.3) == pytest.approx(math.radians(40) + 0.3 * speed)
-    assert found.time_at(np.array([math.radians(40), math.radians(40) + 0.7 * speed])) == pytest.approx(
-        [0, 0.7]
-    )
+    assert found.time_at(np.array([math.radians(40), math.radians(40) + 0.7 * speed])) == pytest.approx([0, 0.7])
     assert found.dimensions() == {"speed": pytest.approx(speed), "start": pytest.approx(math.radians(40))}
     for other in (ConstantSpeed(0.0, 0.2), ConstantSpeed(1.0, rotary=False)):
         assert other.natural_duration() is None

@@ -78,10 +78,7 @@ def carried_out(motion: lw.Motion):
     run = Subprograms()
     run.p |= {each.number: np.full(len(rows), each.place) for each in made.points if each.place is not None}
     known = {
-        link
-        for step in made_plan.steps
-        if step.kind in ("", "bar", "slider", "weld")
-        for link in step.group.links
+        link for step in made_plan.steps if step.kind in ("", "bar", "slider", "weld") for link in step.group.links
     }
     others = {link for step in made.others for link in step.group.links}
     for link in made.links:
@@ -115,18 +112,15 @@ def check(machine: lw.Mechanism, within: float = 1e-5) -> None:
     for point in made.points:
         text = str(point.name)
         if text in motion.point_names():
-            assert (
-                np.abs(run.p[point.number] - _complex(motion.point(text).position[rows])).max()
-                < within * size
-            ), text
+            assert np.abs(run.p[point.number] - _complex(motion.point(text).position[rows])).max() < within * size, (
+                text
+            )
         elif text.startswith("mass centre of "):
             centre = motion.link(text.removeprefix("mass centre of ")).centre.position[rows]
             assert np.abs(run.p[point.number] - _complex(centre)).max() < within * size, text
     for call in made.motion + made.forces:
         assert len(call.actual) == len(call.formal)
-        points = {
-            int(text) for formal, text in zip(call.formal, call.actual, strict=True) if formal[0] == "n"
-        }
+        points = {int(text) for formal, text in zip(call.formal, call.actual, strict=True) if formal[0] == "n"}
         assert points <= {0, *numbers}
     moved = {call.step.number for call in made.motion if call.step}
     dyads = {step.number for step in plan(motion).steps if step.kind.isupper()}
@@ -136,15 +130,7 @@ def check(machine: lw.Mechanism, within: float = 1e-5) -> None:
         assert loaded == dyads | {step.number for step in plan(motion).steps if step.kind == "bar"}
 
 
-CORE = (
-    "shaper_quick_return",
-    "dyad_rpp",
-    "dyad_prp",
-    "dyad_rpr",
-    "swing_conveyor",
-    "jaw_crusher_sixbar",
-    "truss",
-)
+CORE = ("shaper_quick_return", "dyad_rpp", "dyad_prp", "dyad_rpr", "swing_conveyor", "jaw_crusher_sixbar", "truss")
 
 
 @pytest.mark.parametrize("name", CORE)

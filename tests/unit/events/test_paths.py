@@ -134,9 +134,7 @@ def test_the_cycle_of_designs_is_that_of_each_alone(name: str) -> None:
     slopes = Backward(solved).gradient({parts[1]: np.ones(3)})
     for each in names:
         h = 2e-5 * designs[each]
-        ends = [
-            Solved(cycle, {**designs, each: designs[each] + k * h}).values[parts[1]] for k in (-2, -1, 1, 2)
-        ]
+        ends = [Solved(cycle, {**designs, each: designs[each] + k * h}).values[parts[1]] for k in (-2, -1, 1, 2)]
         difference = (ends[0] - 8.0 * ends[1] + 8.0 * ends[2] - ends[3]) / (12.0 * h)
         assert slopes[each] == pytest.approx(difference, rel=1e-8)
 

@@ -51,9 +51,7 @@ def test_places_are_lines_columns_and_offsets_of_characters() -> None:
     assert {"é", "😀", "1 mm", "'d'", "c"} <= set(texts_at(text))
 
 
-@pytest.mark.parametrize(
-    "word", ["on", "no", "yes", "12:30", "1_000", "0o17", "=", "2024-01-01", "~x", "NULLs"]
-)
+@pytest.mark.parametrize("word", ["on", "no", "yes", "12:30", "1_000", "0o17", "=", "2024-01-01", "~x", "NULLs"])
 def test_words_stay_words(word: str) -> None:
     root, remarks = compose(f"a: {word}")
     assert remarks == []
@@ -97,9 +95,7 @@ def test_a_control_character_in_a_text_is_a_finding_and_never_passes(code: str) 
     assert root is not None and "a\ufffdb" in scalars(root)
 
 
-@pytest.mark.parametrize(
-    "text", ["a: &x 1\nb: &x 2", "a: 1\nb: *x", "a: 1\n---\nb: 1", "a: 1\nb: " + "[" * 10**6]
-)
+@pytest.mark.parametrize("text", ["a: &x 1\nb: &x 2", "a: 1\nb: *x", "a: 1\n---\nb: 1", "a: 1\nb: " + "[" * 10**6])
 def test_what_makes_no_tree_is_refused_where_it_is(text: str) -> None:
     root, (remark,) = compose(text)
     assert root is None and remark.line == 1 and remark.code in {"alias", "documents", "depth"}

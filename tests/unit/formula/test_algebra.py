@@ -88,10 +88,8 @@ def written(t: Trace, value: Scalar) -> str:
         (lambda x, y: (y < x) & (x < y), "and(less(y, x), less(x, y))"),
         (lambda x, y: (x < y) | (y < x), "or(less(x, y), less(y, x))"),
     ],
-)  # fmt: skip
-def test_formulas_are_written_in_their_shortest_form(
-    formula: Callable[[Scalar, Scalar], Any], expected: str
-) -> None:
+)
+def test_formulas_are_written_in_their_shortest_form(formula: Callable[[Scalar, Scalar], Any], expected: str) -> None:
     t = Trace()
     x, y = t.position("x"), t.position("y")
     found = formula(x, y)
@@ -104,9 +102,19 @@ def test_formulas_are_written_in_their_shortest_form(
 def test_a_line_varies_if_one_of_its_arguments_does() -> None:
     t = Trace()
     a, x, f = t.parameter("a"), t.position("x"), t.field_input("f")
-    for value, varies in ((a + 1.0, False), (a + x, True), (x * a, True), (-a, False), (-x, True), (a * f, True),
-                          (t.select(a < 1.0, a, 2.0), False), (t.select(a < 1.0, a, x), True),
-                          (t.lookup("way", a), False), (t.lookup("way", x), True), (f, True)):  # fmt: skip
+    for value, varies in (
+        (a + 1.0, False),
+        (a + x, True),
+        (x * a, True),
+        (-a, False),
+        (-x, True),
+        (a * f, True),
+        (t.select(a < 1.0, a, 2.0), False),
+        (t.select(a < 1.0, a, x), True),
+        (t.lookup("way", a), False),
+        (t.lookup("way", x), True),
+        (f, True),
+    ):
         assert isinstance(value, Value)
         assert bool(t.node(value.index).varies) is varies
 
@@ -116,18 +124,21 @@ def test_known_numbers_are_computed_at_once_as_unknown_ones_later(a: float, b: f
     t = Trace()
     x, y = t.position("x"), t.position("y")
     rows: dict[str, tuple[Any, Any]] = {
-        "sum": (t.add(a, b), x + y), "difference": (t.sub(a, b), x - y), "product": (t.mul(a, b), x * y),
-        "least": (trace.minimum(a, b), trace.minimum(x, y)), "most": (trace.maximum(a, b), trace.maximum(x, y)),
-        "sign": (trace.sign(a), trace.sign(x)), "size": (trace.absolute(a), trace.absolute(x)),
-        "less": (t.compare("less", a, b), x < y), "equal": (t.compare("less_equal", a, b), x <= y),
-        "mixed": (t.sub(a, b), a - y), "mixed too": (t.mul(a, b), x * b), "third": (t.add(a, b), x + b),
-    }  # fmt: skip
+        "sum": (t.add(a, b), x + y),
+        "difference": (t.sub(a, b), x - y),
+        "product": (t.mul(a, b), x * y),
+        "least": (trace.minimum(a, b), trace.minimum(x, y)),
+        "most": (trace.maximum(a, b), trace.maximum(x, y)),
+        "sign": (trace.sign(a), trace.sign(x)),
+        "size": (trace.absolute(a), trace.absolute(x)),
+        "less": (t.compare("less", a, b), x < y),
+        "equal": (t.compare("less_equal", a, b), x <= y),
+        "mixed": (t.sub(a, b), a - y),
+        "mixed too": (t.mul(a, b), x * b),
+        "third": (t.add(a, b), x + b),
+    }
     if b:
-        rows |= {
-            "quotient": (t.div(a, b), x / y),
-            "share": (t.div(a, b), x / b),
-            "part": (t.div(a, b), a / y),
-        }
+        rows |= {"quotient": (t.div(a, b), x / y), "share": (t.div(a, b), x / b), "part": (t.div(a, b), a / y)}
     with np.errstate(invalid="ignore"):
         program = Program.of(t, {name: value for name, (_, value) in rows.items()})
         later = NumpyProgram(program).run([], {"x": np.array([a]), "y": np.array([b])}, length=1)[:, 0]
@@ -147,9 +158,7 @@ def test_angles_are_brought_next_to_each_other() -> None:
 
 MATRICES = [np.random.default_rng(k).uniform(-2.0, 2.0, (n, n)) for k, n in enumerate((1, 2, 3, 3, 4, 5))]
 MATRICES += [np.array([[0.0, 2.0, 0.0], [0.0, 0.0, 3.0], [4.0, 0.0, 0.0]]), np.eye(4)[[2, 0, 3, 1]] * 3.0]
-MATRICES += [
-    np.array([[0.0, 1.0, 2.0, 0.0], [3.0, 0.0, 0.0, 1.0], [0.0, 4.0, 0.0, 1.0], [1.0, 0.0, 5.0, 2.0]])
-]
+MATRICES += [np.array([[0.0, 1.0, 2.0, 0.0], [3.0, 0.0, 0.0, 1.0], [0.0, 4.0, 0.0, 1.0], [1.0, 0.0, 5.0, 2.0]])]
 
 
 @pytest.mark.parametrize("matrix", MATRICES)
@@ -168,9 +177,7 @@ def test_small_matrices_are_inverted_as_numpy_inverts_them(matrix: Any, traced: 
     for inverse in ways.values():
         product = [linear.product(inverse, column) for column in linear.transposed(entries)]
         found = computed(t, [*chain(*inverse), linear.determinant(entries), *chain(*product)], numbers)
-        assert np.reshape(found[: n * n], (n, n)) == pytest.approx(
-            np.linalg.inv(matrix), rel=1e-11, abs=1e-12
-        )
+        assert np.reshape(found[: n * n], (n, n)) == pytest.approx(np.linalg.inv(matrix), rel=1e-11, abs=1e-12)
         assert found[n * n] == pytest.approx(np.linalg.det(matrix), rel=1e-12)
         assert np.reshape(found[n * n + 1 :], (n, n)) == pytest.approx(np.eye(n), abs=1e-13)
 
@@ -197,12 +204,21 @@ def test_vectors_are_complex_numbers(traced: bool) -> None:
     u, v = Vec(ax, ay), Vec(bx, by)
     real = Vec(ax, 0.0)
     expected: dict[str, tuple[Vec, complex]] = {
-        "sum": (u + v, a + b), "difference": (u - v, a - b), "negative": (-u, -a), "multiple": (u * s, a * s),
-        "times": (s * u, a * s), "perpendicular": (u.perp, 1j * a), "mirrored": (u.conjugate, a.conjugate()),
-        "product": (u.turn(v), a * b), "quotient": (u.over(v), a / b), "by a real one": (v.over(real), b / a.real),
-        "scalar": (Vec(u.dot(v), u.cross(v)), a.conjugate() * b), "square": (Vec(u.square, 0.0), abs(a) ** 2),
-        "first": (choose(u.x > v.x, u, v), a), "second": (choose(u.x < v.x, u, v), b),
-    }  # fmt: skip
+        "sum": (u + v, a + b),
+        "difference": (u - v, a - b),
+        "negative": (-u, -a),
+        "multiple": (u * s, a * s),
+        "times": (s * u, a * s),
+        "perpendicular": (u.perp, 1j * a),
+        "mirrored": (u.conjugate, a.conjugate()),
+        "product": (u.turn(v), a * b),
+        "quotient": (u.over(v), a / b),
+        "by a real one": (v.over(real), b / a.real),
+        "scalar": (Vec(u.dot(v), u.cross(v)), a.conjugate() * b),
+        "square": (Vec(u.square, 0.0), abs(a) ** 2),
+        "first": (choose(u.x > v.x, u, v), a),
+        "second": (choose(u.x < v.x, u, v), b),
+    }
     rows = [part for each, _ in expected.values() for part in (each.x, each.y)]
     found = np.reshape(computed(t, rows, parts), (-1, 2)) @ [1.0, 1j]
     assert found == pytest.approx([value for _, value in expected.values()], rel=1e-15)
@@ -267,10 +283,22 @@ def test_a_program_says_what_it_does() -> None:
         t, {"y": a * a + t.lookup("way", x, 2), "low": (x < a) & ~(a <= x), "s": t.field_input("s") - 1.5}
     )
     assert program.text().splitlines() == [
-        "v0 = parameter a", "v1 = position x", "v2 = v0 * v0", "v3 = lookup[way, 2](v1)", "v4 = v2 + v3",
-        "v5 = v1 < v0", "v6 = v0 <= v1", "v7 = not(v6)", "v8 = v5 & v7", "v9 = field s", "v10 = 1.5",
-        "v11 = v9 - v10", "output y = v4", "output low = v8", "output s = v11",
-    ]  # fmt: skip
+        "v0 = parameter a",
+        "v1 = position x",
+        "v2 = v0 * v0",
+        "v3 = lookup[way, 2](v1)",
+        "v4 = v2 + v3",
+        "v5 = v1 < v0",
+        "v6 = v0 <= v1",
+        "v7 = not(v6)",
+        "v8 = v5 & v7",
+        "v9 = field s",
+        "v10 = 1.5",
+        "v11 = v9 - v10",
+        "output y = v4",
+        "output low = v8",
+        "output s = v11",
+    ]
     assert program.counts() == {
         "design": {"mul": 1},
         "position": {"add": 1, "and": 1, "less": 1, "less_equal": 1, "lookup": 1, "not": 1, "sub": 1},

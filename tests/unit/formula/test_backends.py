@@ -9,13 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tests.unit.formula.objectives import Term, gradient_of, table_of
-from tests.unit.formula.random_programs import (
-    PARAMETERS,
-    POSITIONS,
-    Formulas,
-    outputs_of,
-    random_program,
-)
+from tests.unit.formula.random_programs import PARAMETERS, POSITIONS, Formulas, outputs_of, random_program
 from tests.unit.formula.sweeps import sweep
 
 from linkwright.formula import ir_module, machine_code
@@ -24,11 +18,7 @@ from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
 from linkwright.formula.reductions import KINDS, Reduction
 from linkwright.formula.scalar_backend import ScalarProgram
-from linkwright.formula.trace import (
-    Trace,
-    select,
-    sqrt,
-)
+from linkwright.formula.trace import Trace, select, sqrt
 
 Floats = NDArray[np.float64]
 needs_compiler = pytest.mark.skipif(not available(), reason="llvmlite is not installed")
@@ -208,11 +198,14 @@ def test_truths_count_as_one_and_numbers_but_zero_as_true() -> None:
         below, few, some = row < 0.5, float(number < 3.0), number != 0.0
         want.append(
             [
-                2.0 * below + few - (1.0 - few), np.where(row != 0.0, number, -number),
-                (1.0 if some else 2.0) + below, (row != 0.0) & some, ~((row != 0.0) | some),
+                2.0 * below + few - (1.0 - few),
+                np.where(row != 0.0, number, -number),
+                (1.0 if some else 2.0) + below,
+                (row != 0.0) & some,
+                ~((row != 0.0) | some),
                 row,
             ]
-        )  # fmt: skip
+        )
     evaluator = NumpyProgram(program)
     np.testing.assert_array_equal(evaluator.run_designs(table, positions), want)
     scalar = ScalarProgram(program)

@@ -58,9 +58,7 @@ def code_file(base: Path) -> Path:
     return path
 
 
-def test_the_second_process_loads_what_the_first_compiled(
-    base: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_second_process_loads_what_the_first_compiled(base: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     compiled = count_compilations(monkeypatch)
     assert works()
     assert works()
@@ -70,9 +68,7 @@ def test_the_second_process_loads_what_the_first_compiled(
 
 
 @pytest.mark.parametrize("place", [0, 30, -200, -1])
-def test_a_damaged_file_is_ignored_and_written_anew(
-    base: Path, monkeypatch: pytest.MonkeyPatch, place: int
-) -> None:
+def test_a_damaged_file_is_ignored_and_written_anew(base: Path, monkeypatch: pytest.MonkeyPatch, place: int) -> None:
     compiled = count_compilations(monkeypatch)
     assert works()
     good = code_file(base).read_bytes()
@@ -156,9 +152,7 @@ def test_the_oldest_files_go_beyond_the_limit(base: Path, monkeypatch: pytest.Mo
 
 
 @pytest.mark.parametrize(("home", "want"), [("/somewhere", "/somewhere/linkwright"), ("", None)])
-def test_the_users_cache_folder_is_the_default(
-    monkeypatch: pytest.MonkeyPatch, home: str, want: str | None
-) -> None:
+def test_the_users_cache_folder_is_the_default(monkeypatch: pytest.MonkeyPatch, home: str, want: str | None) -> None:
     monkeypatch.delenv("LINKWRIGHT_CACHE", raising=False)
     monkeypatch.setenv("XDG_CACHE_HOME", home)
     assert str(cache.folder()) == want if want else cache.folder() is not None
@@ -241,9 +235,7 @@ def test_as_many_files_go_as_are_beyond_the_limit(
     assert list(base.iterdir()) == []
 
 
-def test_a_file_that_cannot_take_its_place_leaves_nothing_behind(
-    base: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_file_that_cannot_take_its_place_leaves_nothing_behind(base: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def refused(source: str, target: Path) -> None:
         raise OSError("in the way")
 

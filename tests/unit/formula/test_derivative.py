@@ -63,9 +63,7 @@ def mixture() -> Program:
     q = (x + a) / r
     chosen = select(q < 0.3, q * r * a, absolute(d) - b * x)
     twice = select((x < 1.0) & ~(d < 0.0), r / c, select(x <= 2.0, c, a) * q)
-    return Program.of(
-        t, {"r": r, "q": q, "w": chosen + twice, "d": -d * turn, "k": turn / a, "valid": x < 2.5}
-    )
+    return Program.of(t, {"r": r, "q": q, "w": chosen + twice, "d": -d * turn, "k": turn / a, "valid": x < 2.5})
 
 
 def difference(program: Program, name: str, at: Mapping[str, float], function: Callable) -> float:  # type: ignore[type-arg]

@@ -44,9 +44,7 @@ def agree(got: Mapping[str, Any], want: Mapping[str, Any], what: str) -> None:
         found = np.array(got[name], dtype=float)
         exact = np.asarray(row, dtype=float)
         scale = largest[family(name)] or 1.0
-        np.testing.assert_allclose(
-            found / scale, exact / scale, rtol=0, atol=CLOSE, err_msg=f"{what}: {name}"
-        )
+        np.testing.assert_allclose(found / scale, exact / scale, rtol=0, atol=CLOSE, err_msg=f"{what}: {name}")
 
 
 def gallery_work(name: str) -> tuple[dict[str, Any], dict[str, Any]] | None:
@@ -84,13 +82,25 @@ def test_functions_and_look_ups(tmp_path: Path) -> None:
     total = s + x * a
     low, high = x < a, t.logic("or", x <= -2.0, x > 8.0)
     outputs = {
-        "sin": sin(x), "cos": cos(x), "exp": exp(x), "log": log(x * x + 1.0), "power": power(x * x + a, 1.3),
-        "angle": angle(sin(x), cos(x)), "floor": floor(x * a), "masked": select(x > a, 1.0, t.lookup("table", x)),
-        "slope": slope(t.lookup("table", x), {x: 1.0}), "bend": t.lookup("table", x, 2), "less": x < a,
-        "total": total, "counted": 2.0 * low - t.negate(high), "between": t.logic("and", low, t.negate(high)),
-        "turned": -x + select(floor(x), 3.0, a), "bound": 1.0 / select(low, math.inf, -2.0),
-        "below": 1.0 / select(low, -math.inf, 4.0), "none": select(high, math.nan, x),
-    }  # fmt: skip
+        "sin": sin(x),
+        "cos": cos(x),
+        "exp": exp(x),
+        "log": log(x * x + 1.0),
+        "power": power(x * x + a, 1.3),
+        "angle": angle(sin(x), cos(x)),
+        "floor": floor(x * a),
+        "masked": select(x > a, 1.0, t.lookup("table", x)),
+        "slope": slope(t.lookup("table", x), {x: 1.0}),
+        "bend": t.lookup("table", x, 2),
+        "less": x < a,
+        "total": total,
+        "counted": 2.0 * low - t.negate(high),
+        "between": t.logic("and", low, t.negate(high)),
+        "turned": -x + select(floor(x), 3.0, a),
+        "bound": 1.0 / select(low, math.inf, -2.0),
+        "below": 1.0 / select(low, -math.inf, 4.0),
+        "none": select(high, math.nan, x),
+    }
     program = Program.of(t, outputs)
     table = Table.spline([0.0, 1.0, 2.5, 4.0], [1.0, 3.0, 2.0, 1.5], periodic=True)
     n = 41

@@ -40,16 +40,8 @@ CASES: dict[str, tuple[Callable[..., Any], Callable[..., Any], list[Floats]]] = 
     "atan": (tr.atan, mpmath.atan, [np.array([-50.0, -0.3, 0.2, 3.0])]),
     "exp": (tr.exp, mpmath.exp, [np.array([-700.0, -0.3, 0.2, 30.0])]),
     "log": (tr.log, mpmath.log, [np.array([1e-3, 0.3, 1.5, 3e7])]),
-    "power": (
-        tr.power,
-        mpmath.power,
-        [np.array([0.3, 2.0, 9.5, 1.01]), np.array([-2.5, 0.3, 3.0, 300.0])],
-    ),
-    "angle": (
-        tr.angle,
-        mpmath.atan2,
-        [np.array([0.3, -2.0, 9.5, -1e-3]), np.array([-2.5, -0.3, 3.0, 300.0])],
-    ),
+    "power": (tr.power, mpmath.power, [np.array([0.3, 2.0, 9.5, 1.01]), np.array([-2.5, 0.3, 3.0, 300.0])]),
+    "angle": (tr.angle, mpmath.atan2, [np.array([0.3, -2.0, 9.5, -1e-3]), np.array([-2.5, -0.3, 3.0, 300.0])]),
 }
 
 
@@ -149,9 +141,7 @@ def test_outside_its_range_a_function_gives_no_number(backend: str) -> None:
         "inverse": tr.power(zero, x),
         "sin": tr.sin(x / zero),
     }
-    got = evaluate(
-        Program.of(t, outputs), backend, [], {"x": np.array([-2.0, 2.0, math.nan]), "zero": np.zeros(3)}
-    )
+    got = evaluate(Program.of(t, outputs), backend, [], {"x": np.array([-2.0, 2.0, math.nan]), "zero": np.zeros(3)})
     nan = math.nan
     want = [
         [nan, math.log(2.0), nan],
@@ -302,9 +292,7 @@ def test_tables_enter_sweeps_and_gradients_by_name(backend: str) -> None:
     slopes = sweep(
         forward(program, ["a"]), factors[:, None], {"x": at}, [("y|a", "sum")], tables=tables, backend=backend
     )
-    np.testing.assert_allclose(
-        slopes["y|a.sum"], (spline(factors[:, None] * at, 1) * at).sum(axis=1), rtol=1e-11
-    )
+    np.testing.assert_allclose(slopes["y|a.sum"], (spline(factors[:, None] * at, 1) * at).sum(axis=1), rtol=1e-11)
 
 
 def test_the_program_does_not_depend_on_the_numbers_of_a_table() -> None:
@@ -339,9 +327,7 @@ def test_a_slope_in_the_trace_is_a_value_like_others() -> None:
 
         with mpmath.workdps(30):
             one, two = float(mpmath.diff(f, number)), float(mpmath.diff(f, number, 2))
-        np.testing.assert_allclose(
-            got[:, place], [one, two, 2.0 * one + 0.7 * number], rtol=1e-13, atol=1e-13
-        )
+        np.testing.assert_allclose(got[:, place], [one, two, 2.0 * one + 0.7 * number], rtol=1e-13, atol=1e-13)
     with pytest.raises(ValueError):  # noqa: PT011
         slope(y, {tr.Trace().position("x"): 1.0})
 

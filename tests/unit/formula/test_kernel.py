@@ -134,9 +134,7 @@ def test_threads_read_kernels_one_after_another(monkeypatch: pytest.MonkeyPatch)
         inside.pop()
         return parse(source)
 
-    monkeypatch.setattr(
-        "linkwright.formula.kernel.ast", SimpleNamespace(parse=watched, FunctionDef=ast.FunctionDef)
-    )
+    monkeypatch.setattr("linkwright.formula.kernel.ast", SimpleNamespace(parse=watched, FunctionDef=ast.FunctionDef))
     with ThreadPoolExecutor(4) as pool:
         found = list(pool.map(lambda _: Kernels([before]).trees["before"].name, range(12)))
     assert found == ["before"] * 12 and most == [1] * 12

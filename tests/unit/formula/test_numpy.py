@@ -71,9 +71,7 @@ def test_division_by_zero_and_negative_roots_follow_ieee() -> None:
     program = Program.of(t, outputs)
     x_values = np.array([0.0, -0.0, -4.0, 4.0])
     got = NumpyProgram(program).run([0.0], {"x": x_values})
-    want = np.array(
-        [[math.nan, math.nan, -0.0, 0.0], [0.0, -0.0, math.nan, 2.0], [math.inf] * 4, [math.nan] * 4]
-    )
+    want = np.array([[math.nan, math.nan, -0.0, 0.0], [0.0, -0.0, math.nan, 2.0], [math.inf] * 4, [math.nan] * 4])
     np.testing.assert_array_equal(got, want)
     scalar = ScalarProgram(program)
     for i, value in enumerate(x_values):

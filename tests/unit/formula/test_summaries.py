@@ -21,9 +21,13 @@ BACKENDS = ["numpy", pytest.param("llvm", marks=pytest.mark.skipif(not available
 COUNT = 36
 INPUT = {"q": np.arange(COUNT) * math.tau / COUNT}
 ASKED = (
-    Reduction("x", "mean"), Reduction("x", "rms"), Reduction("y", "max"), Reduction("x", "min"),
-    Reduction("y", "sum"), Reduction("y", "mean"),
-)  # fmt: skip
+    Reduction("x", "mean"),
+    Reduction("x", "rms"),
+    Reduction("y", "max"),
+    Reduction("x", "min"),
+    Reduction("y", "sum"),
+    Reduction("y", "mean"),
+)
 
 
 def stroke_of(q: Scalar, r: Scalar, rod: Scalar, e: Scalar) -> tuple[Scalar, Scalar]:
@@ -121,9 +125,7 @@ def test_a_design_that_cannot_turn_has_no_complete_value(backend: Backend) -> No
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
-def test_designs_that_go_in_several_parts_are_put_together(
-    backend: Backend, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_designs_that_go_in_several_parts_are_put_together(backend: Backend, monkeypatch: pytest.MonkeyPatch) -> None:
     """A few at a time, results and gradients are those of all at once."""
     table, sums, gradient = designs(19), Summaries(slider(), ASKED), Gradient(slider(), total())
     wanted = sums.evaluate(table, INPUT, backend=backend)

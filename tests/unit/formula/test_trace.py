@@ -12,17 +12,7 @@ from linkwright.formula.functions import FUNCTIONS
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
 from linkwright.formula.table import Table
-from linkwright.formula.trace import (
-    Scalar,
-    Trace,
-    absolute,
-    floor,
-    maximum,
-    minimum,
-    power,
-    select,
-    sign,
-)
+from linkwright.formula.trace import Scalar, Trace, absolute, floor, maximum, minimum, power, select, sign
 
 
 def test_a_traced_value_has_no_truth_and_belongs_to_one_trace() -> None:
@@ -76,13 +66,7 @@ def test_numbers_divide_as_the_standard_of_floating_point_says() -> None:
 
 
 @pytest.mark.parametrize(
-    ("x", "y"),
-    [
-        ([0.0], [1.0]),
-        ([0.0, 0.0], [1.0, 2.0]),
-        ([0.0, 1.0], [1.0]),
-        ([0.0, 1.0], [1.0, math.nan]),
-    ],
+    ("x", "y"), [([0.0], [1.0]), ([0.0, 0.0], [1.0, 2.0]), ([0.0, 1.0], [1.0]), ([0.0, 1.0], [1.0, math.nan])]
 )
 def test_tables_that_are_none_are_refused(x: list[float], y: list[float]) -> None:
     with pytest.raises(ValueError):  # noqa: PT011

@@ -9,9 +9,7 @@ from linkwright.gears.involute import angle_of_involute, involute
 
 @pytest.mark.parametrize("degrees", [14.5, 20.0, 25.0, 26.0886])
 def test_involute_function_and_its_inverse(degrees: float) -> None:
-    assert angle_of_involute(involute(math.radians(degrees))) == pytest.approx(
-        math.radians(degrees), rel=1e-13
-    )
+    assert angle_of_involute(involute(math.radians(degrees))) == pytest.approx(math.radians(degrees), rel=1e-13)
 
 
 def test_inverse_of_small_and_large_involutes() -> None:

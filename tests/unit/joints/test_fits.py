@@ -18,9 +18,7 @@ def test_what_fits_a_sweep_fits_a_model(kind: str) -> None:
     mechanism = lw.loads(MODEL.replace("JOINTS", WRITTEN[kind]))
     pair = mechanism.joints["pair"]
     assert pair.misfit(mechanism) is None and bool(pair.fits(Numbers(mechanism, Trace()))) is True
-    addresses = [
-        a for a in mechanism.dimensions() if a.split(".")[0] in ("pair", "slide", "base", "one", "two")
-    ]
+    addresses = [a for a in mechanism.dimensions() if a.split(".")[0] in ("pair", "slide", "base", "one", "two")]
     judged = set()
     for address in addresses:
         if address.endswith((".friction", ".mass", ".inertia")):

@@ -102,11 +102,7 @@ class Moving:
         slide = self.mechanism.joints.get("slide")
         if slide is None:
             free = self.kind == "revolute"
-            return {
-                "base": base,
-                "one": one,
-                "two": two if not free else Body(wave(t, 1j, 0.4, 2.1), angles[1]),
-            }
+            return {"base": base, "one": one, "two": two if not free else Body(wave(t, 1j, 0.4, 2.1), angles[1])}
         moved = "two" if self.kind == "rack" else "one"
         held = self.guided(base, moved, wave(t, 0.35, 0.1, 1.9), t)
         if self.kind == "rack":
@@ -131,11 +127,7 @@ class Moving:
         return Body.pinned(place, self.local(moved, mine), angle)
 
     def states(self, t: float) -> dict[str, State]:
-        anchors = {
-            "base": (0.11 - 0.2j, 0.4 + 0.3j),
-            "one": (0.3 + 0.1j, -0.2 + 0.9j),
-            "two": (0.2j, 1.5 + 0j),
-        }
+        anchors = {"base": (0.11 - 0.2j, 0.4 + 0.3j), "one": (0.3 + 0.1j, -0.2 + 0.9j), "two": (0.2j, 1.5 + 0j)}
         bodies = self.bodies(t)
         self.turned = {name: float(body.angle[0].real) for name, body in bodies.items()}
         return {name: body.state(*anchors[name]) for name, body in bodies.items()}
@@ -213,9 +205,7 @@ def test_forces_do_the_work_of_their_equations_and_what_others_hold_does_none(ki
         poses = {name: state.pose for name, state in states.items()}
         for multipliers in ([3.0, -1.4][: cut.rows], [-2.0, 0.6][: cut.rows]):
             own, held = cut.wrenches(multipliers, poses), cut.held(multipliers[0], poses, abs)
-            assert power(own, states) == pytest.approx(
-                float(np.dot(multipliers, cut.drift(states))), abs=1e-12
-            )
+            assert power(own, states) == pytest.approx(float(np.dot(multipliers, cut.drift(states))), abs=1e-12)
             assert power(held, states) == pytest.approx(0.0, abs=1e-12)
             forces, moments = [], []
             for end in (moving.connection.a, moving.connection.b):
@@ -224,10 +214,7 @@ def test_forces_do_the_work_of_their_equations_and_what_others_hold_does_none(ki
                 moments += [moment_about(Vec(0.0, 0.0), wrench, poses[end]) for wrench in each]
             assert sum(force.x for force in forces) == pytest.approx(0.0, abs=1e-12)
             assert sum(force.y for force in forces) == pytest.approx(0.0, abs=1e-12)
-            if moving.kind not in (
-                "prismatic",
-                "revolute",
-            ):  # which is open, and whose moment another joint takes
+            if moving.kind not in ("prismatic", "revolute"):  # which is open, and whose moment another joint takes
                 assert sum(moments) == pytest.approx(0.0, abs=1e-12)
 
 
@@ -281,9 +268,7 @@ def test_a_link_hung_on_another_moves_as_the_joint_lets_it(kind: str, child: str
             if kind == "weld":
                 base, at = bodies["base"], complex(*mechanism.links["base"].points["A"])
                 angle = plus(base.angle, (math.radians(35), 0, 0))
-                bodies["one"] = Body.pinned(
-                    base.point(at), complex(*mechanism.links["one"].points["A"]), angle
-                )
+                bodies["one"] = Body.pinned(base.point(at), complex(*mechanism.links["one"].points["A"]), angle)
         carrier = bodies[parent].state(0.11 - 0.2j, 0.4 + 0.3j)
         angle = tuple(float(each.real) for each in bodies[child].angle)
         rates = (angle[1], angle[2]) if kind == "revolute" else (float(slid[1]), float(slid[2]))
@@ -297,11 +282,7 @@ def test_a_link_hung_on_another_moves_as_the_joint_lets_it(kind: str, child: str
             assert joint.turn_of(child, mechanism) == pytest.approx(turned, abs=1e-13)
         for local in (0.3 - 0.7j, complex(*mechanism.links[child].points["A"])):
             exact = [vec(each) for each in bodies[child].point(local)]
-            found = (
-                state.pose.point(vec(local)),
-                state.velocity_of(vec(local)),
-                state.acceleration_of(vec(local)),
-            )
+            found = (state.pose.point(vec(local)), state.velocity_of(vec(local)), state.acceleration_of(vec(local)))
             for one, other in zip(found, exact, strict=True):
                 assert (one.x, one.y) == pytest.approx((other.x, other.y), abs=1e-12)
 

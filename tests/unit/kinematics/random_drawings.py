@@ -41,9 +41,7 @@ def verdict(seed: int, off: float) -> str:
     except lw.LinkwrightError:
         return "not judged"
     rng = np.random.default_rng([seed, 5])
-    moved = {
-        name: (x + rng.normal(0, off), y + rng.normal(0, off)) for name, (x, y) in mechanism.drawing.items()
-    }
+    moved = {name: (x + rng.normal(0, off), y + rng.normal(0, off)) for name, (x, y) in mechanism.drawing.items()}
     rough = MotionSolver(replace(mechanism, drawing=moved)).tracker()
     try:
         start = rough.drawn

@@ -22,9 +22,7 @@ Vec = np.ndarray[Any, np.dtype[np.float64]]
 def worst(motion: Any, path: FinePath, every: int = 1) -> float:
     """Largest difference of a link's direction at positions that the path, ``every`` times as fine, reaches."""
     found = {name: path.direction(name)[::every] for name in motion.mechanism.links}
-    return max(
-        float(np.abs(motion.link(name).direction[: len(rows)] - rows).max()) for name, rows in found.items()
-    )
+    return max(float(np.abs(motion.link(name).direction[: len(rows)] - rows).max()) for name, rows in found.items())
 
 
 @cache
@@ -58,9 +56,7 @@ cycle: {{duration: 0.7 s}}
 
 
 def written(points: dict[str, Vec]) -> str:
-    return (
-        "{" + ", ".join(f"{name}: [{float(x)!r} m, {float(y)!r} m]" for name, (x, y) in points.items()) + "}"
-    )
+    return "{" + ", ".join(f"{name}: [{float(x)!r} m, {float(y)!r} m]" for name, (x, y) in points.items()) + "}"
 
 
 def plate(gap: float, drawing: str | None = None) -> str:
@@ -100,9 +96,7 @@ def test_assemblies_a_hundredth_apart_are_told_from_each_other(gap: float, apart
     place = {}
     for point, (link, (x, y)) in names.items():
         x0, y0, phi = near[system.index[link]]
-        place[point] = np.array(
-            [x0 + x * np.cos(phi) - y * np.sin(phi), y0 + x * np.sin(phi) + y * np.cos(phi)]
-        )
+        place[point] = np.array([x0 + x * np.cos(phi) - y * np.sin(phi), y0 + x * np.sin(phi) + y * np.cos(phi)])
     for drawn in (text, plate(gap, written(place))):
         model = lw.loads(drawn)
         for steps in (6, 60):

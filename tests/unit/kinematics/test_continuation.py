@@ -142,9 +142,7 @@ def test_nothing_is_read_over_a_break_or_an_end() -> None:
     found = way.between(places, q)
     for row in found.values():
         assert np.isfinite(row).tolist() == [True, False, False, False, False]
-    across = replace(
-        way, coordinates=np.where(np.isfinite(way.coordinates), way.coordinates, way.coordinates[10])
-    )
+    across = replace(way, coordinates=np.where(np.isfinite(way.coordinates), way.coordinates, way.coordinates[10]))
     assert not np.isfinite(next(iter(across.between(np.array([10.5]), q[1:2]).values()))).any()
 
 
@@ -228,9 +226,7 @@ def walk(motion: Motion, steps: float = 1.0) -> tuple[_Walk, Root, Root]:
     """A walk at the beginning of one step, and the roots at both its ends."""
     tracker, q = motion.solver.tracker(), motion.positions.coordinates["driver"][0]
     ahead = steps * (q[1:2] - q[:1])
-    found = _Walk(
-        tracker.groups, straight(q[:1], q[:1] + ahead, tracker.groups.unit), tracked(motion).coordinates[0]
-    )
+    found = _Walk(tracker.groups, straight(q[:1], q[:1] + ahead, tracker.groups.unit), tracked(motion).coordinates[0])
     assert found.here is not None
     begin = found._towards(found.here, ahead)
     assert begin is not None
@@ -241,9 +237,17 @@ def walk(motion: Motion, steps: float = 1.0) -> tuple[_Walk, Root, Root]:
 
 @pytest.mark.parametrize(
     ("guess", "rate", "second", "kept"),
-    [(0.0, 0.0, 0.0, True), (0.9, 0.0, 0.0, True), (1.1, 0.0, 0.0, False), (0.0, 0.9, 0.0, True),
-     (0.0, 1.1, 0.0, False), (0.0, 0.0, 0.9, True), (0.0, 0.0, 1.1, False), (0.0, 0.0, -1.1, False)],
-)  # fmt: skip
+    [
+        (0.0, 0.0, 0.0, True),
+        (0.9, 0.0, 0.0, True),
+        (1.1, 0.0, 0.0, False),
+        (0.0, 0.9, 0.0, True),
+        (0.0, 1.1, 0.0, False),
+        (0.0, 0.0, 0.9, True),
+        (0.0, 0.0, 1.1, False),
+        (0.0, 0.0, -1.1, False),
+    ],
+)
 def test_a_step_counts_up_to_its_documented_shares(
     triad: Motion, guess: float, rate: float, second: float, kept: bool
 ) -> None:

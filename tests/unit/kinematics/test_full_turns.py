@@ -18,10 +18,7 @@ def seen(mechanism: lw.Mechanism, most: int) -> int | None:
     back = [
         k
         for k in range(1, most + 1)
-        if all(
-            abs(motion.link(n).direction[k] - motion.link(n).direction[0]).max() < 1e-9
-            for n in mechanism.links
-        )
+        if all(abs(motion.link(n).direction[k] - motion.link(n).direction[0]).max() < 1e-9 for n in mechanism.links)
     ]
     return back[0] if back else None
 
@@ -39,18 +36,11 @@ def test_a_wheel_on_a_follower_is_back_when_the_follower_has_turned_it_whole(
 
 @pytest.mark.parametrize(
     ("ratio", "turns"),
-    [
-        ("-0.14285714285714285", 7),
-        ("-0.001", 1000),
-        ("-0.000999000999000999", None),
-        ("-0.31830988618", None),
-    ],
+    [("-0.14285714285714285", 7), ("-0.001", 1000), ("-0.000999000999000999", None), ("-0.31830988618", None)],
 )
 def test_a_wheel_on_the_crank_itself(ratio: str, turns: int | None) -> None:
     """1/7, 1/1000; cycles of more than 1000 turns are not looked for, and 1/π never comes back."""
-    text = FOURBAR.replace("O3: [GROUND m, 5 m]", "O3: [0 m, 5 m]").replace(
-        "links: [follower,", "links: [crank,"
-    )
+    text = FOURBAR.replace("O3: [GROUND m, 5 m]", "O3: [0 m, 5 m]").replace("links: [follower,", "links: [crank,")
     mechanism = lw.loads(text.replace("GROUND", "4").replace("CRANK", "1").replace("RATIO", ratio))
     assert full_turns(mechanism, np.pi) == turns
 
@@ -68,13 +58,15 @@ def test_wheels_on_crank_and_follower_are_back_together(ratio: str, turns: int) 
     assert full_turns(mechanism, np.pi) == (turns if turns <= 1000 else None)
 
 
-RACK = FOURBAR.replace("O3: [GROUND m, 5 m]", "G: [0 m, -2 m]").replace(
-    "wheel: {points: {O3: [0 m, 0 m], W: [0.3 m, 0 m]}}", "rack: {points: [R]}"
-).replace(
-    "mesh: {kind: gear, links: [follower, wheel], ratio: RATIO}",
-    "slide: {kind: prismatic, guide: frame, through: G, direction: 0 deg, block: rack, at: R}, "
-    "mesh: {kind: rack, pinion: follower, rack: rack, through: R, radius: 2 m}",
-)  # fmt: skip
+RACK = (
+    FOURBAR.replace("O3: [GROUND m, 5 m]", "G: [0 m, -2 m]")
+    .replace("wheel: {points: {O3: [0 m, 0 m], W: [0.3 m, 0 m]}}", "rack: {points: [R]}")
+    .replace(
+        "mesh: {kind: gear, links: [follower, wheel], ratio: RATIO}",
+        "slide: {kind: prismatic, guide: frame, through: G, direction: 0 deg, block: rack, at: R}, "
+        "mesh: {kind: rack, pinion: follower, rack: rack, through: R, radius: 2 m}",
+    )
+)
 
 
 @pytest.mark.parametrize(("lengths", "turns"), [(DRAG, None), (ROCKER, 1)])

@@ -32,9 +32,7 @@ def alone(mechanism):
     return torque(mechanism)
 
 
-@pytest.mark.parametrize(
-    "name", ["jaw_crusher_sixbar", "swing_conveyor", "triad", "scotch_yoke", "excavator"]
-)
+@pytest.mark.parametrize("name", ["jaw_crusher_sixbar", "swing_conveyor", "triad", "scotch_yoke", "excavator"])
 def test_an_edited_value_gives_the_same_bits_whatever_was_solved_before(name):
     mechanism = lw.load(f"gallery:{name}")
     lengths = every(a for a in mechanism.dimensions() if a.endswith((".length", "crank.A.x")))

@@ -76,11 +76,7 @@ def test_tables_curves_and_diagrams_take_every_name(machine: str) -> None:
         whole = output.kind in POINT and not output.component
         drawn = Output("position", output.owner) if whole else output
         assert output_or_point(motion.mechanism, name) == drawn, name
-        if output.component or output.kind not in (
-            "velocity",
-            "acceleration",
-            "shaking_force",
-        ):  # two columns
+        if output.component or output.kind not in ("velocity", "acceleration", "shaking_force"):  # two columns
             assert result_meant(motion.mechanism, name, found).column == output.column
 
 

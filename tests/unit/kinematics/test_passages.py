@@ -34,9 +34,7 @@ from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Cycle
 
 
-def row(
-    n: int, step: float = 0.1, closed: bool = False, cycle: bool = False, rotary: bool = True
-) -> Positions:
+def row(n: int, step: float = 0.1, closed: bool = False, cycle: bool = False, rotary: bool = True) -> Positions:
     q = step * np.arange(n)
     one = np.ones(n)
     period = n * step if closed else None
@@ -82,19 +80,12 @@ def test_what_cannot_be_reached_from_the_first_solved_position_is_cut_off(
 
 def test_positions_are_one_way_if_they_follow_each_other_closely_or_are_a_cycle() -> None:
     assert row(3, 0.5).is_way and not row(3, 0.6).is_way and not row(2, 0.1).is_way
-    assert (
-        row(3, 0.6, closed=True).is_way and row(3, 2.0, cycle=True).is_way and row(2, 2.0, cycle=True).is_way
-    )
+    assert row(3, 0.6, closed=True).is_way and row(3, 2.0, cycle=True).is_way and row(2, 2.0, cycle=True).is_way
     assert row(3, 5.0, rotary=False).is_way
 
 
 def test_a_group_has_its_other_sign_behind_every_change_point() -> None:
-    passing = [
-        crossing(1),
-        crossing(3, "meeting"),
-        crossing(2, "gap"),
-        crossing(4, group="c+d", flips=(0.5, 4.5)),
-    ]
+    passing = [crossing(1), crossing(3, "meeting"), crossing(2, "gap"), crossing(4, group="c+d", flips=(0.5, 4.5))]
     found = signs(passing, {"a+b": 1.0, "c+d": -1.0, "e": 1.0}, 6)
     assert {name: sign.tolist() for name, sign in found.items()} == {
         "mode:a+b": [1, 1, -1, -1, 1, 1],
@@ -118,9 +109,7 @@ def test_positions_on_a_change_point_are_singular() -> None:
     structure = SimpleNamespace(groups=[SimpleNamespace(name="x"), SimpleNamespace(name="a+b")])
     codes = np.zeros(5)
     mark_singular(
-        codes,
-        [crossing(1), crossing(1, share=1.0), crossing(2, "gap", 1.0), crossing(4, share=1.0)],
-        structure,
+        codes, [crossing(1), crossing(1, share=1.0), crossing(2, "gap", 1.0), crossing(4, share=1.0)], structure
     )  # type: ignore[arg-type]
     assert codes.tolist() == [-2, 0, -2, 0, 0]
 
@@ -132,9 +121,7 @@ def test_change_points_and_gaps_are_said_once_with_their_place() -> None:
     assert "a, b" in said and "driver = 60°" in said
     assert "driver = 250 mm" in passage_notes([replace(crossing(1), at=0.25)], row(8, rotary=False))[0]
     assert "driver = 0°" in passage_notes([replace(crossing(1), at=-1e-13)], along)[0]
-    kinds = [
-        passage_notes([crossing(1, kind)], along)[0].code for kind in ("change", "meeting", "gap", "pole")
-    ]
+    kinds = [passage_notes([crossing(1, kind)], along)[0].code for kind in ("change", "meeting", "gap", "pole")]
     assert len(set(kinds)) == 4
     assert len(passage_notes([crossing(1)], row(8, closed=True))) == 2
     assert len(passage_notes([crossing(1), crossing(2)], row(8, closed=True))) == 2
@@ -158,9 +145,12 @@ cycle: {duration: 1 s}
 @pytest.mark.parametrize("steps", [1, 2, 3, 4, 20])
 @pytest.mark.parametrize(
     ("law", "pace"),
-    [("speed: 30 m/s, start: 1.7320508 m", 30.0), ("speed: -0.3 m/s, start: 1.7320508 m", 0.3),
-     ("position: 1.7 m + 0.1 m*sin(2*pi*t/(1 s) + 1)", 0.2 * np.pi)],
-)  # fmt: skip
+    [
+        ("speed: 30 m/s, start: 1.7320508 m", 30.0),
+        ("speed: -0.3 m/s, start: 1.7320508 m", 0.3),
+        ("position: 1.7 m + 0.1 m*sin(2*pi*t/(1 s) + 1)", 0.2 * np.pi),
+    ],
+)
 def test_steps_of_a_sliding_driver_are_shares_of_the_size(law: str, pace: float, steps: int) -> None:
     """0.05 of the size is one part, and 24 are there at least; the law's peak rate counts, not that of positions."""
     mechanism = lw.loads(PUSHED.replace("LAW", law))
@@ -187,39 +177,38 @@ def test_places_between_positions_follow_the_laws_or_lines() -> None:
     free = replace(positions, time=np.zeros(4), coordinates={"driver": (own, own**2, 2 * own)}, period=None)
     rows = way(solver, free)(np.array([0.5, 2.5, 3.0])).coordinates["driver"]
     assert [each.tolist() for each in rows] == [
-        pytest.approx([0.15, 0.45, 0.4]), pytest.approx([0.045, 0.205, 0.16]), pytest.approx([0.3, 0.9, 0.8]),
-    ]  # fmt: skip
+        pytest.approx([0.15, 0.45, 0.4]),
+        pytest.approx([0.045, 0.205, 0.16]),
+        pytest.approx([0.3, 0.9, 0.8]),
+    ]
 
 
 @pytest.mark.parametrize(
     ("lengths", "kinds", "ends"),
-    [((1, 2, 1, 2), ["change", "change"], [0.0, np.pi]), ((2, 2, 1, 1), ["change", "change"], [0.0, np.pi]),
-     ((1, 2, 2, 1), ["meeting"], [0.0]),
-     ((1, 3, 2.5, 2), [], []), ((2, 2, 1.5, 2), ["gap"], None)],
-)  # fmt: skip
+    [
+        ((1, 2, 1, 2), ["change", "change"], [0.0, np.pi]),
+        ((2, 2, 1, 1), ["change", "change"], [0.0, np.pi]),
+        ((1, 2, 2, 1), ["meeting"], [0.0]),
+        ((1, 3, 2.5, 2), [], []),
+        ((2, 2, 1.5, 2), ["gap"], None),
+    ],
+)
 @pytest.mark.parametrize("start", [20.0, 170.0])
 @pytest.mark.parametrize("steps", [5, 24, 361])
 def test_the_same_passages_are_found_however_coarse_the_steps(
-    lengths: tuple[float, float, float, float],
-    kinds: list[str],
-    ends: list[float] | None,
-    steps: int,
-    start: float,
+    lengths: tuple[float, float, float, float], kinds: list[str], ends: list[float] | None, steps: int, start: float
 ) -> None:
     mechanism = fourbar(*lengths, start=start)
     coarse, fine = (crossings(MotionSolver(mechanism), over_cycle(mechanism, n), None) for n in (steps, 720))
     if kinds != ["gap"]:
         assert sorted(p.kind for p in coarse) == sorted(p.kind for p in fine) == kinds
         angles, exact = (
-            sorted(float(np.angle(np.exp(1j * (p.at - 0.1)))) + 0.1 for p in found)
-            for found in (coarse, fine)
+            sorted(float(np.angle(np.exp(1j * (p.at - 0.1)))) + 0.1 for p in found) for found in (coarse, fine)
         )
         assert angles == pytest.approx(exact, abs=1e-7)
         assert ends is None or angles == pytest.approx(ends, abs=1e-7)
         assert [p.place / steps for p in coarse] == pytest.approx([p.place / 720 for p in fine], abs=1e-7)
-        assert [p.flips[0] / steps for p in coarse] == pytest.approx(
-            [p.flips[0] / 720 for p in fine], abs=1e-7
-        )
+        assert [p.flips[0] / steps for p in coarse] == pytest.approx([p.flips[0] / 720 for p in fine], abs=1e-7)
     for p in coarse:
         assert 0 <= p.before < steps and p.after == (p.before + 1) % steps and 0.0 < p.share <= 1.0
         assert p.at == pytest.approx(np.radians(start) + 2 * np.pi * p.place / steps, abs=1e-9)
@@ -244,9 +233,7 @@ def test_how_near_a_dyad_comes_is_the_least_of_its_square_and_of_its_pins_distan
     solver = MotionSolver(mechanism)
     program = Program.of(solver.motion.trace, {"near": nearness(solver)})
     known = motion.solver.nominal.parameters
-    found = NumpyProgram(program).run([known[name] for name in program.parameters], motion.positions.arrays)[
-        0
-    ]
+    found = NumpyProgram(program).run([known[name] for name in program.parameters], motion.positions.arrays)[0]
     gap = motion.point("A").position - [2.0, 0.0]
     square = (gap**2).sum(axis=1)
     cosine = (3**2 + 2.5**2 - square) / (2 * 3 * 2.5)
@@ -278,9 +265,7 @@ def found_between(mechanism: lw.Mechanism, begin: float, end: float, steps: int)
     ("begin", "end"),
     [(20, 179.9), (20, 181), (178, 300), (179.9, 200), (180.1, 300), (200, 90), (20, 180), (180, 60)],
 )
-def test_open_ways_have_the_change_points_between_their_ends_only(
-    begin: float, end: float, steps: int
-) -> None:
+def test_open_ways_have_the_change_points_between_their_ends_only(begin: float, end: float, steps: int) -> None:
     """Crank 1, coupler 3, rocker 2, frame 4: at 180° alone, the ends counted."""
     found = found_between(fourbar(1, 3, 2, 4, start=begin), begin, end, steps)
     if not min(begin, end) <= 180 <= max(begin, end):
@@ -307,16 +292,12 @@ def test_a_stretch_out_of_reach_lies_behind_the_last_position_that_can_be(start:
     for p in found:
         assert np.cos(p.at) == pytest.approx(np.cos(edge), abs=1e-9)
         assert np.sin(p.at) > 0.0
-        assert p.place == pytest.approx(
-            ((edge - np.radians(start)) % (2 * np.pi)) / (2 * np.pi) * steps, abs=1e-7
-        )
+        assert p.place == pytest.approx(((edge - np.radians(start)) % (2 * np.pi)) / (2 * np.pi) * steps, abs=1e-7)
         assert (p.before, p.after) == (int(p.place), (int(p.place) + 1) % steps)
 
 
 @pytest.mark.parametrize("steps", [4, 9, 50])
-@pytest.mark.parametrize(
-    ("begin", "end"), [(-80, 80), (-80, 91), (-91, 80), (-100, 100), (60, 300), (100, -80)]
-)
+@pytest.mark.parametrize(("begin", "end"), [(-80, 80), (-80, 91), (-91, 80), (-100, 100), (60, 300), (100, -80)])
 def test_guides_become_parallel_between_the_ends_of_an_open_way(begin: float, end: float, steps: int) -> None:
     """A slotted arm that is square to its rod's guide at 0° is along it at 90° and at 270°."""
     found = found_between(store.machine("tangent_mechanism"), begin, end, steps)
@@ -343,9 +324,7 @@ def test_a_slotted_arm_that_turns_fully_has_its_guides_parallel_twice(start: flo
     expected = sorted(((a - start) % 360.0) / 360.0 * steps for a in (90.0, 270.0))
     assert [p.kind for p in found] == ["pole", "pole"]
     assert [p.place for p in found] == pytest.approx(expected, abs=1e-5)
-    assert [np.degrees(p.at) - start for p in found] == pytest.approx(
-        [360 * e / steps for e in expected], abs=1e-4
-    )
+    assert [np.degrees(p.at) - start for p in found] == pytest.approx([360 * e / steps for e in expected], abs=1e-4)
     assert [(p.before, p.after) for p in found] == [
         (k, (k + 1) % steps) for k in (int(np.ceil(p.place)) - 1 for p in found)
     ]

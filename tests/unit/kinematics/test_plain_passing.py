@@ -11,9 +11,17 @@ from linkwright.kinematics.passing_proof import plainly_passed
 from linkwright.mechanism.mechanism import Cycle, Mechanism
 
 PASSED = (
-    "crank_rocker", "slider_crank_offset", "dyad_rpr", "parallelogram", "change_point_fourbar", "triad",
-    "scotch_yoke", "external_gear_pair", "double_slider", "truss",
-)  # fmt: skip
+    "crank_rocker",
+    "slider_crank_offset",
+    "dyad_rpr",
+    "parallelogram",
+    "change_point_fourbar",
+    "triad",
+    "scotch_yoke",
+    "external_gear_pair",
+    "double_slider",
+    "truss",
+)
 
 
 @pytest.mark.parametrize("name", PASSED)
@@ -26,9 +34,7 @@ def test_what_plainly_passes_its_cycle_is_so_when_it_is_solved(name: str) -> Non
     groups = [p for p in motion.solver.motion.placed.values() if p.group.unknowns]
     closed = all("sine" not in p.facts and p.dyad is not None for p in groups)
     wheels = any(joint.higher for joint in mechanism.joints.values())
-    plain = (
-        whole and law is not None and law.constant_speed is not None and law.rotary and closed and not wheels
-    )
+    plain = whole and law is not None and law.constant_speed is not None and law.rotary and closed and not wheels
     found = plainly_passed(mechanism, lw.structure(mechanism), 36)
     assert (found is not None) == (plain and bool(motion.ok.all()) and not motion.notes)
 

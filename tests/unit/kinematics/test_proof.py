@@ -14,14 +14,7 @@ from tests.refusals import refused
 import linkwright as lw
 
 FAULTS = Path(__file__).parents[2] / "reference" / "faults"
-FOLLOWED = (
-    "triad",
-    "class_four_group",
-    "fourth_order_group",
-    "stephenson_sixbar_triad",
-    "wedge",
-    "rack_and_rocker",
-)
+FOLLOWED = ("triad", "class_four_group", "fourth_order_group", "stephenson_sixbar_triad", "wedge", "rack_and_rocker")
 
 
 @pytest.mark.parametrize("name", FOLLOWED)

@@ -45,19 +45,20 @@ SWING = ("rider: {points: [A, P], length: 130 mm}", "")
 def on_an_arm(sense: str, side: str) -> str:
     link, joint = SWING if side else SLIDE
     text = ON_AN_ARM.replace("FOLLOWER", link).replace("JOINT", joint).replace("SENSE", sense)
-    return text.replace("LIFT", "15 deg" if side else "18 mm").replace(
-        "SIDE", f"side: {side}," if side else ""
-    )
+    return text.replace("LIFT", "15 deg" if side else "18 mm").replace("SIDE", f"side: {side}," if side else "")
 
 
 MODELS = {
     **{f"geared {seed}": geared_case(seed).text for seed in (2, 5, 8, 11)},
-    **{f"on an arm, {sense}, {side}": on_an_arm(sense, side) for sense in ("clockwise", "counterclockwise")
-       for side in ("left", "right", "")},
+    **{
+        f"on an arm, {sense}, {side}": on_an_arm(sense, side)
+        for sense in ("clockwise", "counterclockwise")
+        for side in ("left", "right", "")
+    },
     "welded": WELDED.replace("BED", "25").replace("OWN", "70").replace("WELD", "-40"),
     "guided": model(GUIDED, "clockwise", "roller", "18 mm", OFFSET="6 mm"),
     "swinging": model(SWINGING, "counterclockwise", "roller", "15 deg", SIDE="left", MOMENT="3 N·m"),
-}  # fmt: skip
+}
 
 
 def solved(name: str) -> Motion:

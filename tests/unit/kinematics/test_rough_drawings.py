@@ -30,10 +30,7 @@ def test_a_rough_drawing_shows_the_assembly_nearest_to_its_points() -> None:
         return np.asarray(x[2 * names.index(name) :][:2] if name in names else true[name])
 
     bars = [
-        (p, q)
-        for link in mechanism.links.values()
-        for k, p in enumerate(link.points)
-        for q in list(link.points)[:k]
+        (p, q) for link in mechanism.links.values() for k, p in enumerate(link.points) for q in list(link.points)[:k]
     ]
     lengths = [float(np.hypot(*np.subtract(true[p], true[q]))) for p, q in bars]
     nearest = minimize(
@@ -42,8 +39,7 @@ def test_a_rough_drawing_shows_the_assembly_nearest_to_its_points() -> None:
         constraints={
             "type": "eq",
             "fun": lambda x: [
-                float(np.hypot(*(place(p, x) - place(q, x)))) - r
-                for (p, q), r in zip(bars, lengths, strict=True)
+                float(np.hypot(*(place(p, x) - place(q, x)))) - r for (p, q), r in zip(bars, lengths, strict=True)
             ],
         },
         method="SLSQP",
@@ -60,8 +56,7 @@ def test_a_drawing_two_millimetres_off_shows_the_assembly_that_was_drawn(seed: i
     mechanism = lw.loads(general_case(seed).text)
     exact, rng = MotionSolver(mechanism).tracker(), np.random.default_rng([seed, 5])
     drawing = {
-        name: (x + rng.normal(0, 0.002), y + rng.normal(0, 0.002))
-        for name, (x, y) in mechanism.drawing.items()
+        name: (x + rng.normal(0, 0.002), y + rng.normal(0, 0.002)) for name, (x, y) in mechanism.drawing.items()
     }
     rough = MotionSolver(replace(mechanism, drawing=drawing)).tracker()
     goal = rough.drawn_inputs + rough.nearest_drive(exact.drawn_inputs - rough.drawn_inputs)

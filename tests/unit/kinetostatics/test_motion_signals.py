@@ -36,9 +36,7 @@ def test_angles_are_those_of_the_cycle_and_whole_turns(lengths: tuple[str, str],
         assert rate == pytest.approx(signals.motion.link(name).angular_velocity, abs=1e-12)
     between = signals.angle_between("crank", "follower", 0.3)
     gain = 2 * np.pi * (sense - (-1.0 if backwards else 1.0))
-    own = np.interp(
-        time - laps * PERIOD, cycle.time, cycle.link("follower").angle - cycle.link("crank").angle
-    )
+    own = np.interp(time - laps * PERIOD, cycle.time, cycle.link("follower").angle - cycle.link("crank").angle)
     near = own + gain * laps - between
     assert near == pytest.approx(np.full(7, 2 * np.pi * np.round(near[0] / (2 * np.pi))), abs=1e-3)
     begin = cycle.link("follower").angle[0] - cycle.link("crank").angle[0] - near[0]

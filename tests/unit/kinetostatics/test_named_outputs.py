@@ -46,9 +46,7 @@ class Solved:
 
 def solved(text: str, steps: int, times: Floats | None = None) -> Solved:
     mechanism = lw.loads(text)
-    motion = (
-        lw.solve_motion(mechanism, steps=steps) if times is None else lw.solve_motion(mechanism, times=times)
-    )
+    motion = lw.solve_motion(mechanism, steps=steps) if times is None else lw.solve_motion(mechanism, times=times)
     programs = force_programs(motion_programs(mechanism, AS_IT_IS))
     return Solved(motion, lw.solve_forces(motion), Named(programs, lambda link: 0.4, lambda link: (0.4, 0.0)))
 
@@ -78,9 +76,7 @@ def check(case: Solved, name: str, dimension: str, reading: Reading) -> None:
 
 
 @pytest.mark.parametrize(("name", "dimension", "reading"), OF_THE_SHAPER)
-def test_words_give_what_the_solved_machine_does(
-    shaper: Solved, name: str, dimension: str, reading: Reading
-) -> None:
+def test_words_give_what_the_solved_machine_does(shaper: Solved, name: str, dimension: str, reading: Reading) -> None:
     check(shaper, name, dimension, reading)
 
 
@@ -93,15 +89,25 @@ def test_words_of_a_machine_that_a_sliding_driver_moves(
 
 @pytest.mark.parametrize(
     ("text", "names"),
-    [(DRY, {"rod.angular_jerk": lambda m: m.link("rod").angular_acceleration,
-            "slot.jerk": lambda m: m.joint("slot").acceleration,
-            "B.jerk.x": lambda m: m.point("B").acceleration[:, 0]}),
-     (PUSHED, {"rod.angular_jerk": lambda m: m.link("rod").angular_acceleration,
-               "A.jerk.y": lambda m: m.point("A").acceleration[:, 1]})],
-)  # fmt: skip
-def test_jerks_are_the_rates_of_accelerations(
-    text: str, names: dict[str, Callable[[Motion], Floats]]
-) -> None:
+    [
+        (
+            DRY,
+            {
+                "rod.angular_jerk": lambda m: m.link("rod").angular_acceleration,
+                "slot.jerk": lambda m: m.joint("slot").acceleration,
+                "B.jerk.x": lambda m: m.point("B").acceleration[:, 0],
+            },
+        ),
+        (
+            PUSHED,
+            {
+                "rod.angular_jerk": lambda m: m.link("rod").angular_acceleration,
+                "A.jerk.y": lambda m: m.point("A").acceleration[:, 1],
+            },
+        ),
+    ],
+)
+def test_jerks_are_the_rates_of_accelerations(text: str, names: dict[str, Callable[[Motion], Floats]]) -> None:
     h = 2e-3
     case = solved(text, 0, np.array([0.1, 0.31]))
     aside = {k: solved_motion(text, np.array([0.1, 0.31]) + k * h) for k in (-2, -1, 1, 2)}
@@ -126,21 +132,10 @@ def test_every_name_that_is_offered_is_an_output(shaper: Solved, pushed: Solved)
         for name in names:
             assert case.named.quantity(name).name == name
     names = list(output_names(shaper.motion.mechanism))
-    assert names[:6] == [
-        "driver.effort",
-        "input_torque",
-        "power",
-        "shaking_force",
-        "shaking_moment",
-        "closeness",
-    ]
-    assert {
-        "couple slot on die",
-        "slot.jerk",
-        "reaction A on crank",
-        "reaction A on die",
-        "B.acceleration",
-    } < set(names)
+    assert names[:6] == ["driver.effort", "input_torque", "power", "shaking_force", "shaking_moment", "closeness"]
+    assert {"couple slot on die", "slot.jerk", "reaction A on crank", "reaction A on die", "B.acceleration"} < set(
+        names
+    )
     assert "reaction bed on frame" not in names
 
 
@@ -174,9 +169,7 @@ OTHERS = {
 @pytest.mark.parametrize(("name", "offer"), OTHERS.items())
 def test_other_words_are_refused_with_what_was_meant(shaper: Solved, name: str, offer: str | None) -> None:
     meant = {} if offer is None else {"offer": offer}
-    with refused(
-        "study.no_such_output", RequestError, name=name, mechanism="shaper with dry joints", **meant
-    ):
+    with refused("study.no_such_output", RequestError, name=name, mechanism="shaper with dry joints", **meant):
         shaper.named.quantity(name)
 
 

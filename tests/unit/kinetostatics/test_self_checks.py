@@ -46,9 +46,7 @@ def test_a_falsified_reaction_shows_in_the_balance(
 
 
 @pytest.mark.parametrize("joint", ["slot", "bed"])
-def test_a_falsified_couple_shows_in_the_balance(
-    forces: Forces, joint: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_falsified_couple_shows_in_the_balance(forces: Forces, joint: str, monkeypatch: pytest.MonkeyPatch) -> None:
     right = Forces.couple
     monkeypatch.setattr(
         Forces, "couple", lambda self, name, *, on=None: right(self, name, on=on) + 1.6 * (name == joint)
@@ -145,9 +143,7 @@ def test_in_sweeps_it_is_an_outcome(monkeypatch: pytest.MonkeyPatch) -> None:
         found = lw.sweep(swept, vary, outputs=["reaction Q on swept_lever max"], backend="numpy")
         with refused("forces.unbalanced", SelfCheckError):
             next(iter(sweep_curves(swept, vary, outputs=["driver.effort"], backend="numpy")))
-        prepared = lw.prepare(
-            lw.loads(FALSIFIED.replace("falsified", "prepared")), vary=["prepared_rod.length"]
-        )
+        prepared = lw.prepare(lw.loads(FALSIFIED.replace("falsified", "prepared")), vary=["prepared_rod.length"])
         with refused("forces.unbalanced", SelfCheckError):
             prepared.solve({"prepared_rod.length": 0.75})
     assert not found.ok.any() and np.isnan(found["reaction Q on swept_lever max"]).all()

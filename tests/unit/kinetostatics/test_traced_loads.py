@@ -17,9 +17,7 @@ pytestmark = pytest.mark.rotating
 def test_loads_traced_with_the_forces_are_those_found_from_the_motion(load: str) -> None:
     forces = lw.solve_forces(machine(load))
     motion, signals = forces.motion, MotionSignals(forces.motion)
-    fields = {
-        row_name("magnitude", name): evaluate(each, signals) for name, each in motion.mechanism.loads.items()
-    }
+    fields = {row_name("magnitude", name): evaluate(each, signals) for name, each in motion.mechanism.loads.items()}
     for name, found in forces.fields.items():
         assert found == pytest.approx(fields[name], rel=1e-13, abs=1e-13 * np.abs(fields[name]).max())
     want = ForceSolver(motion.solver).evaluate(tuple(forces.rows.index), motion, fields)

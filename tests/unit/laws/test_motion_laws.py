@@ -99,9 +99,7 @@ def test_every_pair_of_ends_has_laws_that_meet_it(start: str, end: str) -> None:
     ],
 )
 def test_the_harmonic_combination_contains_the_known_laws(ends: Ends, name: str) -> None:
-    assert np.array(HarmonicCombination(ends).curves(U)) == pytest.approx(
-        np.array(made(name).curves(U)), abs=1e-11
-    )
+    assert np.array(HarmonicCombination(ends).curves(U)) == pytest.approx(np.array(made(name).curves(U)), abs=1e-11)
 
 
 SWIFT = '''
@@ -137,9 +135,7 @@ def test_an_installed_package_brings_a_law(tmp_path: Path, monkeypatch: pytest.M
         assert module is not None
 
 
-@pytest.mark.parametrize(
-    "law", ["constant_velocity", "constant_acceleration", "simple_harmonic", "cycloidal"]
-)
+@pytest.mark.parametrize("law", ["constant_velocity", "constant_acceleration", "simple_harmonic", "cycloidal"])
 def test_residual_vibration_of_very_stiff_followers_in_closed_form(law: str) -> None:
     """|∫ s̈ e^(iωt) dt|/(ωh), steps of the velocity included, over twelve thousand natural periods in a rise."""
     n = np.array([12_345.3, 123_456.3])

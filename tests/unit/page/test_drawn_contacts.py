@@ -30,9 +30,7 @@ pytestmark = needs_chromium
         (0, "flat"),
     ],
 )
-def test_cams_are_drawn_where_their_followers_touch(
-    opened: Opened, tmp_path: Path, case: int, touch: str
-) -> None:
+def test_cams_are_drawn_where_their_followers_touch(opened: Opened, tmp_path: Path, case: int, touch: str) -> None:
     """Contacts found from velocities are points of the profile by its formula, before and after a change."""
     held, side = CASES[case]
     text = text_of(held, side, touch, "clockwise")
@@ -98,7 +96,6 @@ def test_teeth_mesh_and_racks_reach_as_far_as_they_are_used(opened: Opened, tmp_
     motion = store.motion("pinion_between_racks", STEPS)
     travel = np.ptp(motion.point("pinion.C").position[:, 0])
     lengths = opened.run(
-        "s => s.data.glyphs.filter(g => g.kind === 'rack').map(g => s.view.shapes.rack(g))"
-        ".map(r => r.high - r.low)"
+        "s => s.data.glyphs.filter(g => g.kind === 'rack').map(g => s.view.shapes.rack(g)).map(r => r.high - r.low)"
     )
     assert sorted(lengths) == pytest.approx([travel, travel], rel=1e-9)

@@ -67,8 +67,7 @@ def test_the_smaller_of_a_wheel_and_a_cam_on_a_shaft_lies_over_the_larger(base: 
 
 def test_wheels_that_mesh_are_found_by_their_place_with_cams_between() -> None:
     text = ENGINE.replace(
-        "chain, links: [crank, shaft], teeth: [19, 38], pitch: 8 mm",
-        "gear, links: [crank, shaft], ratio: -0.5",
+        "chain, links: [crank, shaft], teeth: [19, 38], pitch: 8 mm", "gear, links: [crank, shaft], ratio: -0.5"
     )
     motion = lw.solve_motion(lw.loads(text.replace("BASE", "60 mm").replace("WAY", "forward")), steps=36)
     found = glyphs_of(motion)

@@ -23,9 +23,7 @@ def test_fits_by_closed_forms_of_maximum_likelihood() -> None:
     assert (log["μ(ln)"], log["σ(ln)"]) == pytest.approx((np.log(x).mean(), np.log(x).std()), rel=1e-12)
     k, scale = fitted(x, "weibull").parameters.values()
     assert scale == pytest.approx(float((x**k).mean() ** (1 / k)), rel=1e-12)
-    assert 1 / k == pytest.approx(
-        float((x**k * np.log(x)).sum() / (x**k).sum() - np.log(x).mean()), rel=1e-12
-    )
+    assert 1 / k == pytest.approx(float((x**k * np.log(x)).sum() / (x**k).sum() - np.log(x).mean()), rel=1e-12)
 
 
 def test_capability_by_hand() -> None:

@@ -23,11 +23,7 @@ def test_rest_up_to_the_friction() -> None:
     assert transport(harmonic(0.399 * G, 0.0, 0.4)).phases[0].mode == "rest"
     stays = transport(harmonic(0.399 * G, 0.0, 0.4))
     assert stays.displacement == 0.0 and len(stays.phases) == 1
-    assert {p.mode for p in transport(harmonic(0.401 * G, 0.0, 0.4)).phases} == {
-        "rest",
-        "forward",
-        "backward",
-    }
+    assert {p.mode for p in transport(harmonic(0.401 * G, 0.0, 0.4)).phases} == {"rest", "forward", "backward"}
 
 
 def test_slipping_begins_where_the_acceleration_reaches_friction() -> None:
@@ -103,10 +99,7 @@ def test_throw_number_and_friction_are_those_between_positions() -> None:
     phi, r, rod = np.linspace(0.0, 2.0 * math.pi, 1_000_001), 0.04, 0.1
     root = np.sqrt(rod**2 - (r * np.sin(phi)) ** 2)
     second = -r * np.cos(phi) - r**2 * np.cos(2 * phi) / root - (r**2 * np.sin(2 * phi) / 2) ** 2 / root**3
-    along, across = (
-        100.0 * second * math.cos(math.radians(20.0)),
-        -100.0 * second * math.sin(math.radians(20.0)),
-    )
+    along, across = (100.0 * second * math.cos(math.radians(20.0)), -100.0 * second * math.sin(math.radians(20.0)))
     fall = G * math.cos(math.radians(20.0))
     assert found.throw_number == pytest.approx((-across).max() / fall, rel=1e-9)
     friction = np.abs(along + G * math.sin(math.radians(20.0))) / (across + fall)

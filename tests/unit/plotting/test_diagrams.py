@@ -22,9 +22,7 @@ CRUSHER = store.machine("jaw_crusher_sixbar")
 
 
 def test_the_main_output_of_a_slider_crank_is_the_displacement() -> None:
-    assert main_output(store.motion("swing_conveyor", 12)) == output_meant(
-        store.machine("swing_conveyor"), "guide"
-    )
+    assert main_output(store.motion("swing_conveyor", 12)) == output_meant(store.machine("swing_conveyor"), "guide")
 
 
 def test_without_a_chinese_font_a_sentence_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -41,8 +39,13 @@ def test_every_kind_has_its_words() -> None:
 
 def test_numbers_and_units() -> None:
     assert [significant(v) for v in (0.0, -0.00012345, 12.3456, -1234.56, 1.0, 2.5e8)] == [
-        "0", "−0.0001234", "12.35", "−1235", "1", "2.5e+08",
-    ]  # fmt: skip
+        "0",
+        "−0.0001234",
+        "12.35",
+        "−1235",
+        "1",
+        "2.5e+08",
+    ]
     assert unit_of("force", [np.array([1.0, -25e3])]).text(-25e3) == "−25 kN"
     assert unit_of("torque", [np.array([1800.0])]).text(1797.25) == "1797 N·m"
     assert [round_up(v) for v in (0.011, 0.2, 3.0, 7.0)] == pytest.approx([0.02, 0.2, 5.0, 10.0])
@@ -77,9 +80,7 @@ def test_the_regular_face_of_a_collection_that_was_installed_after_the_list(
     stale.__dict__.update(font_manager.fontManager.__dict__)
     stale.ttflist = [font for font in font_manager.fontManager.ttflist if font.name == "DejaVu Sans"]
     monkeypatch.setattr(font_manager, "fontManager", stale)
-    monkeypatch.setattr(
-        "linkwright.pictures.svg.fonts.installed_chinese", lambda: tuple(sorted(tmp_path.iterdir()))
-    )
+    monkeypatch.setattr("linkwright.pictures.svg.fonts.installed_chinese", lambda: tuple(sorted(tmp_path.iterdir())))
     chosen = picture.chinese_font()
     assert chosen is not None
     found = stale.findfont(font_manager.FontProperties(family=[chosen]))

@@ -33,9 +33,7 @@ def seen(motion: lw.Motion, link: str, *points: tuple[float, float]) -> np.ndarr
 @pytest.mark.parametrize("sense", ["counterclockwise", "clockwise"])
 @pytest.mark.parametrize(("held", "side"), CASES)
 @pytest.mark.parametrize("touch", ["roller", "knife", "groove"])
-def test_the_profile_touches_roller_and_knife(
-    held: dict[str, str], side: str, touch: str, sense: str
-) -> None:
+def test_the_profile_touches_roller_and_knife(held: dict[str, str], side: str, touch: str, sense: str) -> None:
     motion, cam, end = drawn(held, side, touch, sense)
     profile, *others = (seen(motion, "cam", *line) for line in cam.outlines if line)
     at = seen(motion, "held", end.at)
@@ -70,9 +68,7 @@ def test_the_profile_touches_a_flat_face_within_its_ends(held: dict[str, str], s
 @pytest.mark.parametrize("touch", ["roller", "flat"])
 def test_the_contact_force_is_drawn_through_the_contact(held: dict[str, str], side: str, touch: str) -> None:
     """Through the roller's centre, and at the point of the profile that is deepest in the face; without a couple."""
-    heavy = text_of(held, side, touch, "clockwise").replace(
-        "held: {points", "held: {mass: 3 kg, inertia: 0, points"
-    )
+    heavy = text_of(held, side, touch, "clockwise").replace("held: {points", "held: {mass: 3 kg, inertia: 0, points")
     motion = lw.solve_motion(lw.loads(heavy + "gravity: [0, -9.81 m/s²]\n"), steps=72)
     forces = force_vectors(lw.solve_forces(motion), ["cam.lobe"])
     feet = forces.vectors[0].feet["cam.lobe"] @ [1, 1j]
@@ -100,9 +96,7 @@ def test_the_printing_press_shows_its_cam_under_its_roller() -> None:
             return float(np.abs(shape.profile(np.array([phi]))[0] - at))
 
         near = 2 * np.pi * np.abs(np.array(cam.outlines[0]) @ [1, 1j] - at).argmin() / len(cam.outlines[0])
-        best = minimize_scalar(
-            gap, bounds=(near - 0.02, near + 0.02), method="bounded", options={"xatol": 1e-9}
-        )
+        best = minimize_scalar(gap, bounds=(near - 0.02, near + 0.02), method="bounded", options={"xatol": 1e-9})
         assert best.fun == pytest.approx(roller.radius, abs=1e-9 * 0.06)
 
 

@@ -57,9 +57,7 @@ def test_moving_arrows_keep_their_names() -> None:
         assert shifts[index] - shifts[0] == pytest.approx(track[index] - track[0], abs=0.02)
 
 
-@pytest.mark.parametrize(
-    "name", ["crank_rocker", "shaper_quick_return", "slider_crank_inline", "toggle_press"]
-)
+@pytest.mark.parametrize("name", ["crank_rocker", "shaper_quick_return", "slider_crank_inline", "toggle_press"])
 def test_both_limit_positions_lie_inside_the_picture(name: str) -> None:
     motion = store.motion(name, 5)
     root = ET.fromstring(draw(motion, overlay="limits").svg)
@@ -74,8 +72,12 @@ def test_both_limit_positions_lie_inside_the_picture(name: str) -> None:
 
 
 def _output(name: str) -> str:
-    return {"crank_rocker": "rocker", "shaper_quick_return": "guide", "slider_crank_inline": "cylinder",
-            "toggle_press": "guide"}[name]  # fmt: skip
+    return {
+        "crank_rocker": "rocker",
+        "shaper_quick_return": "guide",
+        "slider_crank_inline": "cylinder",
+        "toggle_press": "guide",
+    }[name]
 
 
 def _paper_scale(motion: lw.Motion) -> float:

@@ -45,9 +45,7 @@ def font(path: Path, family: str, characters: str = "中") -> Path:
     return path
 
 
-def test_a_given_font_goes_before_the_installed_ones(
-    tmp_path: Path, caplog: pytest.LogCaptureFixture
-) -> None:
+def test_a_given_font_goes_before_the_installed_ones(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     """Found in its folder, without a word of matplotlib about its weight, and no longer used afterwards."""
     from matplotlib import font_manager
 
@@ -78,12 +76,7 @@ def test_a_font_that_is_installed_later_is_found(tmp_path: Path, monkeypatch: py
 def test_the_regular_file_of_several() -> None:
     """As the packages of the systems name them."""
     for regular, *others in (
-        (
-            "NotoSansCJK-Regular.ttc",
-            "NotoSansCJK-Bold.ttc",
-            "NotoSerifCJK-Regular.ttc",
-            "NotoSansCJK-Black.ttc",
-        ),
+        ("NotoSansCJK-Regular.ttc", "NotoSansCJK-Bold.ttc", "NotoSerifCJK-Regular.ttc", "NotoSansCJK-Black.ttc"),
         ("wqy-microhei.ttc", "wqy-zenhei-mono.ttc"),
         ("msyh.ttc", "msyhbd-bold.ttc", "simsun.ttc"),
     ):

@@ -45,9 +45,7 @@ def test_loads_outside_their_phase_are_named() -> None:
 def test_scales_are_the_smallest_round_ones(largest: float) -> None:
     scale = round_up(largest / 30.0, GRAPHICAL)
     assert largest / scale <= 30.0 * (1 + 1e-9)
-    smaller = [
-        k * 10.0**e for e in range(-10, 9) for k in (1.0, 2.0, 2.5, 4.0, 5.0) if k * 10.0**e < 0.999 * scale
-    ]
+    smaller = [k * 10.0**e for e in range(-10, 9) for k in (1.0, 2.0, 2.5, 4.0, 5.0) if k * 10.0**e < 0.999 * scale]
     assert all(largest / each > 30.0 for each in every(smaller))
     assert any(math.isclose(scale, k * 10.0**e) for e in range(-10, 9) for k in (1.0, 2.0, 2.5, 4.0, 5.0))
 

@@ -39,9 +39,7 @@ def pair(entry: str) -> tuple[lw.Mechanism, Any]:
 
 @pytest.mark.parametrize("radii", [(0.06, 0.21), (0.3, 0.1), (0.2, 0.2)])
 @pytest.mark.parametrize("run", ["open", "crossed"])
-def test_strands_touch_both_pulleys_and_cross_where_the_belt_does(
-    run: str, radii: tuple[float, float]
-) -> None:
+def test_strands_touch_both_pulleys_and_cross_where_the_belt_does(run: str, radii: tuple[float, float]) -> None:
     sizes = ", ".join(f"{1e3 * each} mm" for each in radii)
     mechanism, belt = pair(f"kind: belt, run: {run}, radii: [{sizes}]")
     *discs, first, second = marks_of(belt, mechanism, {})
@@ -67,9 +65,7 @@ def test_strands_touch_both_pulleys_and_cross_where_the_belt_does(
 
 
 @pytest.mark.parametrize("known", [{}, {("one", "A"): 0.3}, {("two", "B"): -0.7}])
-@pytest.mark.parametrize(
-    ("entry", "internal"), [("teeth: [20, 33]", 0), ("teeth: [20, 53], mesh: internal", 1)]
-)
+@pytest.mark.parametrize(("entry", "internal"), [("teeth: [20, 33]", 0), ("teeth: [20, 53], mesh: internal", 1)])
 @pytest.mark.parametrize("swapped", [False, True])
 def test_teeth_stand_in_gaps_whichever_wheel_is_drawn_first(
     known: Mapping[tuple[str, str], float], entry: str, internal: int, swapped: bool
@@ -95,10 +91,7 @@ def test_teeth_stand_in_gaps_whichever_wheel_is_drawn_first(
 
 
 def test_wheels_whose_teeth_are_not_counted_are_discs_or_wheels_without_teeth() -> None:
-    for entry, symbol in (
-        ("kind: rolling, radii: [250 mm, 500 mm]", "disc"),
-        ("kind: gear, ratio: -2", "gear"),
-    ):
+    for entry, symbol in (("kind: rolling, radii: [250 mm, 500 mm]", "disc"), ("kind: gear, ratio: -2", "gear")):
         mechanism, wheels = pair(entry)
         marks = list(marks_of(wheels, mechanism, {}))
         assert [(each.symbol, each.teeth, each.turned) for each in marks] == [(symbol, None, 0.0)] * 2
@@ -111,20 +104,13 @@ def test_wheels_whose_teeth_are_not_counted_are_discs_or_wheels_without_teeth() 
     [
         ("kind: belt, radii: [60 mm, 150 mm]", (0.4, "radii"), (("pair.radii.0",), ("pair.radii.1",)), True),
         ("kind: belt, run: crossed, radii: [60 mm, 150 mm]", (-0.4, "radii"), None, True),
-        (
-            "kind: chain, teeth: [19, 38], pitch: 12.7 mm",
-            (0.5, "teeth"),
-            (("pair.pitch",), ("pair.pitch",)),
-            True,
-        ),
+        ("kind: chain, teeth: [19, 38], pitch: 12.7 mm", (0.5, "teeth"), (("pair.pitch",), ("pair.pitch",)), True),
         ("kind: chain, radii: [60 mm, 150 mm]", (0.4, "radii"), (("pair.radii.0",), ("pair.radii.1",)), True),
         ("kind: gear, teeth: [20, 40]", (-0.5, "teeth"), (None, None), False),
         ("kind: gear, ratio: 3", (3.0, "ratio"), (None, None), False),
     ],
 )
-def test_what_follows_changed_dimensions(
-    entry: str, ratio: tuple[float, str], radii: Any, wrapped: bool
-) -> None:
+def test_what_follows_changed_dimensions(entry: str, ratio: tuple[float, str], radii: Any, wrapped: bool) -> None:
     """Amounts give the ratio and the radii from the dimensions they name."""
     mechanism, joint = pair(entry)
     found = contact_shape(joint, mechanism)
@@ -151,9 +137,7 @@ def test_what_follows_changed_dimensions(
     assert inside == ([True, False] if entry.endswith("ratio: 3") else [False, False])
 
 
-@pytest.mark.parametrize(
-    "kind", ["cam, knife, out", "cam, knife, back", "cam, knife, left", "cam, knife, right"]
-)
+@pytest.mark.parametrize("kind", ["cam, knife, out", "cam, knife, back", "cam, knife, left", "cam, knife, right"])
 def test_an_edge_points_where_the_follower_is_lifted(kind: str) -> None:
     """Along the guide, or across the arm to the side on which it lies."""
     mechanism = written(kind)
@@ -180,18 +164,18 @@ def test_what_follows_changed_dimensions_of_a_rack(kind: str) -> None:
     assert size is not None and (way.rack, way.through) == ("base", "G")
     product = size.factor * math.prod(mechanism.dimension(address) for address in size.times)
     assert size.value == pytest.approx(0.08) == pytest.approx(product)
-    assert (
-        way.turn.value
-        == pytest.approx(mechanism.dimension(way.turn.times[0]))
-        == pytest.approx(rack.direction)
-    )
+    assert way.turn.value == pytest.approx(mechanism.dimension(way.turn.times[0])) == pytest.approx(rack.direction)
     assert way.right == (kind == "rack, right") and way.pinion.toothed
     assert (way.pinion.link, way.pinion.carrier, way.pinion.centre) == ("one", "one", "K")
     wheel, line = marks_of(rack, mechanism, {("one", "K"): 0.4})
     teeth = 20 if kind == "rack, by module" else None
     assert (wheel.symbol, wheel.link, wheel.radius, wheel.turned, wheel.teeth) == (
-        "gear", "one", pytest.approx(0.08), 0.4, teeth,
-    )  # fmt: skip
+        "gear",
+        "one",
+        pytest.approx(0.08),
+        0.4,
+        teeth,
+    )
     assert wheel.at == pytest.approx((-0.1, 0.13)) and line.at == pytest.approx((0.15, 0.4))
     assert (line.symbol, line.link, line.follows) == ("rack", "base", ("one", "K"))
     assert line.turned == pytest.approx(rack.direction) and line.inside == way.right

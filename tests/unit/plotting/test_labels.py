@@ -75,18 +75,9 @@ def test_estimated_widths_are_not_below_those_of_a_font() -> None:
 @pytest.mark.parametrize(
     ("text", "kept"),
     [
-        (
-            "the links have no mass and there are no loads (mass: 5 kg, loads: …) and that is all there is",
-            "5 kg,",
-        ),
-        (
-            "force of link 1 on link 2; 0 frame, 1 boom_cylinder, 2 bucket_cylinder, 3 boom, 4 bucket",
-            "4 bucket",
-        ),
-        (
-            "构件对构件的作用力；零机架，曲柄，连杆，摇杆，滑块，导杆，从动件，凸轮，推杆，齿轮，齿条",
-            "轮，",
-        ),
+        ("the links have no mass and there are no loads (mass: 5 kg, loads: …) and that is all there is", "5 kg,"),
+        ("force of link 1 on link 2; 0 frame, 1 boom_cylinder, 2 bucket_cylinder, 3 boom, 4 bucket", "4 bucket"),
+        ("构件对构件的作用力；零机架，曲柄，连杆，摇杆，滑块，导杆，从动件，凸轮，推杆，齿轮，齿条", "轮，"),
     ],
 )
 def test_lines_of_a_legend_keep_together_what_belongs_together(text: str, kept: str) -> None:

@@ -178,9 +178,7 @@ def test_the_drawn_scale_is_that_of_the_arrows() -> None:
     names = {each.letter + each.index: each for each in known if each.role == "reaction"}
     assert names["F05"].force == pytest.approx(forces.reaction("O5", on="jaw")[0])
     assert names["F45"].force == pytest.approx(forces.reaction("C", on="jaw")[0])
-    written = [
-        "".join(text for text, _ in each.runs) for each in cell.sketch.content if isinstance(each, Text)
-    ]
+    written = ["".join(text for text, _ in each.runs) for each in cell.sketch.content if isinstance(each, Text)]
     assert {"F05", "F45", "G5"} <= set(written)
 
 

@@ -12,9 +12,23 @@ from linkwright.pictures.svg.element import element, group, number
 from linkwright.pictures.symbols.base import SYMBOLS, hatching, placed
 
 NEEDED = {
-    "fixed_pivot", "pin", "slider", "ground_guide", "moving_guide", "weld", "plate", "gear", "rack", "cam",
-    "crank_arrow", "spring", "arrow", "moment", "mass_centre", "dimension_line",
-}  # fmt: skip
+    "fixed_pivot",
+    "pin",
+    "slider",
+    "ground_guide",
+    "moving_guide",
+    "weld",
+    "plate",
+    "gear",
+    "rack",
+    "cam",
+    "crank_arrow",
+    "spring",
+    "arrow",
+    "moment",
+    "mass_centre",
+    "dimension_line",
+}
 
 
 def test_every_standard_symbol_is_there() -> None:

@@ -10,8 +10,7 @@ from linkwright.plotting.drawing.vectors import round_length, with_unit
 
 
 @pytest.mark.parametrize(
-    ("value", "unit", "text"),
-    [(2e4, "N", "20 kN"), (5.0, "N", "5 N"), (1e6, "N", "1 MN"), (0.5, "m/s", "0.5 m/s")],
+    ("value", "unit", "text"), [(2e4, "N", "20 kN"), (5.0, "N", "5 N"), (1e6, "N", "1 MN"), (0.5, "m/s", "0.5 m/s")]
 )
 def test_legend_values(value: float, unit: str, text: str) -> None:
     assert with_unit(value, unit) == text

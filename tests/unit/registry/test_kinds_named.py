@@ -25,8 +25,12 @@ from linkwright.registry import Registry
 ROOT = Path(linkwright.__file__).parent
 #: The rooms of the kinds' own files, with their registries.
 ROOMS: Mapping[str, Registry] = {
-    "joints": JOINTS, "applied_loads": LOADS, "drivers": LAWS, "groups": DYADS, "analysis": METRICS,
-}  # fmt: skip
+    "joints": JOINTS,
+    "applied_loads": LOADS,
+    "drivers": LAWS,
+    "groups": DYADS,
+    "analysis": METRICS,
+}
 #: Rooms that solve: nothing there asks which kind an element is.
 SOLVING = ("topology", "kinematics", "engine", "groups")
 #: What is left, by file: how often a kind is asked for or imported, and why.
@@ -44,10 +48,7 @@ LEFT: Mapping[str, tuple[int, str]] = {
     "worked_solutions/wheels.py": (1, "the same, from the joint's hook to them"),
     "server/drawn_contacts.py": (2, "tools of the studio that write a cam, a rack into a file"),
     "server/edits.py": (3, "tools of the studio that write a guide, a slot, a gear, a force into a file"),
-    "designs/tolerance/pin_turning_law.py": (
-        1,
-        "a law of its own, by a table, for pins that follow their reactions",
-    ),
+    "designs/tolerance/pin_turning_law.py": (1, "a law of its own, by a table, for pins that follow their reactions"),
     "file_check.py": (1, "judges closeness to singular positions by the metric's rule"),
     "machine/running.py": (1, "says how near its motion comes to a singular position"),
     "course/variants.py": (1, "which transmission angles are good: the metric's limit"),
@@ -113,16 +114,11 @@ def named() -> Counter[str]:
     for path in sorted(ROOT.rglob("*.py")):
         file = path.relative_to(ROOT)
         text = path.read_text("utf-8")
-        if any(
-            word in text
-            for word in ("isinstance", "kind", "case ", *(f"linkwright.{room}." for room in ROOMS))
-        ):
+        if any(word in text for word in ("isinstance", "kind", "case ", *(f"linkwright.{room}." for room in ROOMS))):
             nodes = told(text)
             for room, (names, kinds) in known.items():
                 if file.parts[0] != room:
-                    found[file.as_posix()] += len(
-                        [*asked(nodes, names, kinds), *imported(nodes, room, names)]
-                    )
+                    found[file.as_posix()] += len([*asked(nodes, names, kinds), *imported(nodes, room, names)])
     return +found
 
 
@@ -141,7 +137,5 @@ def test_solvers_ask_the_element() -> None:
     "line", ["isinstance(a, Spring | Damper)", "joint.kind == 'weld'", "isinstance(x, (int, GearPair))"]
 )
 def test_a_named_kind_is_found(line: str) -> None:
-    found = [
-        each for registry in ROOMS.values() for each in asked(told(line), classes(registry), set(registry))
-    ]
+    found = [each for registry in ROOMS.values() for each in asked(told(line), classes(registry), set(registry))]
     assert found

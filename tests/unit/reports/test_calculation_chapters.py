@@ -56,8 +56,11 @@ def test_chapters_stand_in_the_order_of_the_files() -> None:
     order = ["gallery:cantilever", "gallery:two_bars_equilibrium", "gallery:band_brake", "gallery:truss"]
     found = report(order, sections=["structure"])
     assert headings(found, 1) == [
-        parts.load(order[0]).name, lw.load(order[1]).name, parts.load(order[2]).name, lw.load(order[3]).name
-    ]  # fmt: skip
+        parts.load(order[0]).name,
+        lw.load(order[1]).name,
+        parts.load(order[2]).name,
+        lw.load(order[3]).name,
+    ]
     last = report(["gallery:two_bars_equilibrium", "gallery:cantilever"], sections=["structure"])
     assert headings(last, 1) == [lw.load(order[1]).name, parts.load(order[0]).name]
 
@@ -93,8 +96,7 @@ def test_every_formula_of_a_calculation_can_be_printed(name: str) -> None:
 
 UNIT = r"[A-Za-zµ%]+[²³⁴]?(?:[·/](?!cos|sin|tan|arc)[A-Za-z]+[²³⁴]?)*"
 NAMES_OF = {
-    name: getattr(math, name.replace("arc", "a"))
-    for name in ("cos", "sin", "tan", "arctan", "arccos", "atan2")
+    name: getattr(math, name.replace("arc", "a")) for name in ("cos", "sin", "tan", "arctan", "arccos", "atan2")
 }
 NAMES_OF |= {"sqrt": math.sqrt, "exp": math.exp, "abs": abs, "min": min, "max": max, "pi": math.pi}
 
@@ -150,15 +152,24 @@ def test_given_data_follow_what_is_changed_in_code() -> None:
 def test_every_kind_with_supports_or_loads_has_a_sketch() -> None:
     kinds = {re.findall(r"(?m)^kind: (\w+)", lw.gallery.content(name).decode())[0] for name in NAMES}
     assert {kind for kind in kinds if kind in SKETCHES} == {
-        "beam", "forces", "rigid_body", "belt", "wedge", "rotor", "vibration", "follower", "mounts", "link_bending",
-        "throw", "tolerance", "trajectory",
-    }  # fmt: skip
+        "beam",
+        "forces",
+        "rigid_body",
+        "belt",
+        "wedge",
+        "rotor",
+        "vibration",
+        "follower",
+        "mounts",
+        "link_bending",
+        "throw",
+        "tolerance",
+        "trajectory",
+    }
 
 
 SKETCHED = [
-    name
-    for name in NAMES
-    if re.search(r"(?m)^kind: (?!cam|program|statistics)", lw.gallery.content(name).decode())
+    name for name in NAMES if re.search(r"(?m)^kind: (?!cam|program|statistics)", lw.gallery.content(name).decode())
 ]
 
 
@@ -191,10 +202,12 @@ def test_rounding_beside_the_largest_is_zero() -> None:
     assert Row("a", 3e-14, "force", remainder=True).tidy(1e-9).value == 3e-14
     assert Row("p", 3e-14).tidy(1e-9).value == 3e-14
     beam = parts.Beam(
-        3.0, parts.Material(210e9), parts.Section(3e-6),
+        3.0,
+        parts.Material(210e9),
+        parts.Section(3e-6),
         supports={"A": parts.BeamSupport("pinned", 0.0), "B": parts.BeamSupport("roller", 3.0)},
         loads={"a": parts.BeamLoad(force=-0.1, at=1.0), "b": parts.BeamLoad(force=-0.1, at=2.0)},
-    )  # fmt: skip
+    )
     worked = beam.solve().worked()
     assert not re.search(r"\de-1[1-9]", worked)
     assert "V(ξ) = 0 N" in worked

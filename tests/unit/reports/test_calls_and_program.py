@@ -40,9 +40,7 @@ def check(name: str, language: str, folder: Path) -> None:
     found, blocks = _blocks(name, language)
     listing = next(block for block in blocks if isinstance(block, Code) and block.language == "python")
     case = ReportContext(
-        store.machine(name),
-        settings(dict(store.machine(name).report), language, store.machine(name)),
-        language,
+        store.machine(name), settings(dict(store.machine(name).report), language, store.machine(name)), language
     )
     numbered = case.numbered
     wanted = (case.numbered_forces if case.mechanism.has_loads else numbered.motion).columns()
@@ -59,10 +57,7 @@ def check(name: str, language: str, folder: Path) -> None:
         size = max(float(np.nanmax(np.abs(v), initial=1e-3)) for k, v in wanted.items() if k.endswith(unit))
         assert np.abs(gap).max(initial=0.0) <= 1e-8 * size, head
     called = [
-        line
-        for block in blocks
-        if isinstance(block, Code) and not block.language
-        for line in block.text.splitlines()
+        line for block in blocks if isinstance(block, Code) and not block.language for line in block.text.splitlines()
     ]
     tables = [block for block in blocks if isinstance(block, Table) and len(block.head) > 8]
     if called:
@@ -87,9 +82,7 @@ def test_the_call_table_of_the_shaper() -> None:
     rows = {block.head[1:]: block.rows for block in blocks if isinstance(block, Table)}
     rprk = rows["m", "n1", "n2", "k1", "k2", "r1", "r2", "vr2", "ar2", "t", "w", "e", "p", "vp", "ap"]
     assert rprk[0][1:7] == ("1", "3", "2", "3", "2", "0")
-    rrpk = next(
-        found for head, found in rows.items() if head[:8] == ("m", "n1", "n2", "n3", "k1", "k2", "k3", "r1")
-    )
+    rrpk = next(found for head, found in rows.items() if head[:8] == ("m", "n1", "n2", "n3", "k1", "k2", "k3", "r1"))
     assert rrpk[0][1:9] == ("1", "4", "6", "7", "4", "5", "6", "0.135")
     points = next(block for block in blocks if isinstance(block, Table) and block.head[0] == "n")
     beside = points.rows[5]  # the ram's pin moves 0.5285 m above O3: 0.1485 m above O1

@@ -63,8 +63,13 @@ def test_word_has_every_sign_and_the_nesting_of_the_formula() -> None:
     assert said(found) == "ρ=xA2sB+y"
     names = [element.tag.removeprefix(f"{{{SPACE}}}") for element in found.iter()]
     assert [name for name in names if name in ("rad", "f", "sSubSup", "acc", "sSub", "d")] == [
-        "rad", "f", "sSubSup", "sSub", "acc", "d",
-    ]  # fmt: skip
+        "rad",
+        "f",
+        "sSubSup",
+        "sSub",
+        "acc",
+        "d",
+    ]
 
 
 def test_word_has_the_rows_of_a_matrix_its_delimiters_and_the_limits_of_sums() -> None:
@@ -75,9 +80,7 @@ def test_word_has_the_rows_of_a_matrix_its_delimiters_and_the_limits_of_sums() -
     marks = {each.tag.removeprefix(f"{{{SPACE}}}"): each.get(f"{{{SPACE}}}val") for each in found.iter()}
     assert (marks["begChr"], marks["endChr"]) == ("[", "]")
     first, second = found.iter(f"{{{SPACE}}}nary")
-    parts = [
-        [said(first.find(f"{{{SPACE}}}{name}")) for name in ("sub", "sup", "e")] for first in (first, second)
-    ]
+    parts = [[said(first.find(f"{{{SPACE}}}{name}")) for name in ("sub", "sup", "e")] for first in (first, second)]
     assert parts == [["i", "n", "xi"], ["", "", "y"]]
     assert said(found) == "abcd=inxi+y"
 
@@ -86,25 +89,30 @@ def test_word_has_the_rows_of_a_matrix_its_delimiters_and_the_limits_of_sums() -
 def test_every_line_of_a_worked_solution_can_be_printed(name: str) -> None:
     page = lw.worked(store.forces(name, 7), 1)
     for line in every(page.equations, least=50):
-        for side, text in zip(
-            line.sides, (line.latex_symbol, line.latex_formula, line.latex_numbers), strict=False
-        ):
+        for side, text in zip(line.sides, (line.latex_symbol, line.latex_formula, line.latex_numbers), strict=False):
             assert typst(side) and formula(text) is not None
 
 
-@pytest.mark.parametrize("latex", [
-        r"\foo{x}", r"\frac{a", "}", r"\left(x", r"\left x \right)", r"\begin{tikz} a \end{tikz}",
-        r"\begin{bmatrix} a", "x#",
-    ])  # fmt: skip
+@pytest.mark.parametrize(
+    "latex",
+    [
+        r"\foo{x}",
+        r"\frac{a",
+        "}",
+        r"\left(x",
+        r"\left x \right)",
+        r"\begin{tikz} a \end{tikz}",
+        r"\begin{bmatrix} a",
+        "x#",
+    ],
+)
 def test_what_is_no_formula_of_ours_is_refused(latex: str) -> None:
     with refused("report.no_formula", text=latex):
         formula(latex)
 
 
 def test_long_formulas_come_in_lines_that_fit_and_lose_nothing() -> None:
-    row = formula(
-        r"-\left(" + " + ".join(rf"\left(x_{{{i}}} - y\right)\,F_{{{i}}}" for i in range(20)) + r"\right)"
-    )
+    row = formula(r"-\left(" + " + ".join(rf"\left(x_{{{i}}} - y\right)\,F_{{{i}}}" for i in range(20)) + r"\right)")
     found = list(lines(row, 30.0))
     assert len(found) > 2 and all(width(line) <= 30.0 for line in found)
     joined = typst(Row(tuple(item for line in found for item in line.items)))
@@ -134,6 +142,4 @@ def test_lines_of_word_hold_the_whole_equation_behind_breaks() -> None:
     (line,) = (each for each in file.paragraphs if each._p.findall(f"{{{SPACE}}}oMath"))
     equations = line._p.findall(f"{{{SPACE}}}oMath")
     assert len(equations) == line._p.xml.count("<w:br/>") + 1 >= 3
-    assert (
-        "".join(said(each) for each in equations).replace("\u2003", "") == "x=" + "+".join(["aB"] * 30) + "=5"
-    )
+    assert "".join(said(each) for each in equations).replace("\u2003", "") == "x=" + "+".join(["aB"] * 30) + "=5"

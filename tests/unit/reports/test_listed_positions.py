@@ -208,9 +208,7 @@ def test_inputs_of_laws_in_time_are_refused() -> None:
     is_refused(["solve", "gallery:crank_rocker", "--at", "0..90deg:-15"], "solve.step_away")
     is_refused(["solve", "gallery:dyad_rrr", "--at", "limits"], "solve.no_limits")
     is_refused(["solve", "gallery:parallelogram", "--at", "rocker min"], "picture.no_limit_positions")
-    is_refused(
-        ["export", "gallery:crank_rocker", "--at", "x min", "--output", "a.csv"], "study.no_such_output"
-    )
+    is_refused(["export", "gallery:crank_rocker", "--at", "x min", "--output", "a.csv"], "study.no_such_output")
 
 
 def test_every_table_has_the_listed_positions() -> None:

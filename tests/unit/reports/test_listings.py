@@ -28,9 +28,7 @@ def document() -> Document:
 
 def test_pages_have_the_lines_of_a_listing_as_they_are() -> None:
     page = compiled(document(), "html").decode()
-    shown = [
-        unescape(re.sub("<[^>]*>", "", each)) for each in re.findall("<pre>(.*?)</pre>", page, re.DOTALL)
-    ]
+    shown = [unescape(re.sub("<[^>]*>", "", each)) for each in re.findall("<pre>(.*?)</pre>", page, re.DOTALL)]
     assert shown == ["\n".join(LINES), "\n".join(LINES), "a: 1"]
 
 

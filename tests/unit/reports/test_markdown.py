@@ -30,9 +30,7 @@ SKETCH = '<svg xmlns="http://www.w3.org/2000/svg" width="96" height="48"><rect w
 def read(text: str, beside: TextContext | None = None) -> tuple[list[Block], list[str]]:
     """Blocks, and codes or sentences of what is wrong."""
     found = list(own_text(text, context=beside))
-    return [block for block, _ in found], [
-        each.code or each.sentence for _, faults in found for each in faults
-    ]
+    return [block for block, _ in found], [each.code or each.sentence for _, faults in found for each in faults]
 
 
 def one(text: str, beside: TextContext | None = None) -> Block:
@@ -50,20 +48,36 @@ def marks(text: str) -> list[tuple[str, str, str, str]]:
 @pytest.mark.parametrize(
     ("text", "wanted"),
     [
-        ("a **b *c* d**", [("text", "a ", "", ""), ("text", "b ", "strong", ""), ("text", "c", "emphasis+strong", ""),
-                           ("text", " d", "strong", "")]),
-        ("[a `b`](https://x.org/?a=1&b=2)", [("text", "a ", "", "https://x.org/?a=1&b=2"),
-                                             ("code", "b", "", "https://x.org/?a=1&b=2")]),
+        (
+            "a **b *c* d**",
+            [
+                ("text", "a ", "", ""),
+                ("text", "b ", "strong", ""),
+                ("text", "c", "emphasis+strong", ""),
+                ("text", " d", "strong", ""),
+            ],
+        ),
+        (
+            "[a `b`](https://x.org/?a=1&b=2)",
+            [("text", "a ", "", "https://x.org/?a=1&b=2"), ("code", "b", "", "https://x.org/?a=1&b=2")],
+        ),
         ("~~a~~\\\nb", [("text", "a", "struck", ""), ("break", "\n", "", ""), ("text", "b", "", "")]),
         (r"$\mu$ costs \$5 \*or\* $6", [("formula", r"\mu", "", ""), ("text", " costs $5 *or* $6", "", "")]),
-        ("[[table 1]] [a](#b) [@norton]", [("reference", "table 1", "", ""), ("text", " ", "", ""),
-                                           ("text", "a", "", "#b"), ("text", " ", "", ""),
-                                           ("source", "Norton, Design of Machinery", "", "")]),
+        (
+            "[[table 1]] [a](#b) [@norton]",
+            [
+                ("reference", "table 1", "", ""),
+                ("text", " ", "", ""),
+                ("text", "a", "", "#b"),
+                ("text", " ", "", ""),
+                ("source", "Norton, Design of Machinery", "", ""),
+            ],
+        ),
         ("``**a** ` $b$ [[c]]`` d", [("code", "**a** ` $b$ [[c]]", "", ""), ("text", " d", "", "")]),
         ("<b>&amp; #panic()", [("text", "<b>& #panic()", "", "")]),
         ("曲柄\n摇杆 a\nb", [("text", "曲柄摇杆 a b", "", "")]),
     ],
-)  # fmt: skip
+)
 def test_marks_within_a_paragraph(text: str, wanted: list[tuple[str, str, str, str]]) -> None:
     assert marks(text) == wanted
 
@@ -74,8 +88,9 @@ def test_lists_hold_numbers_lists_and_other_blocks() -> None:
     (first, inner), (second, code) = found.items
     assert isinstance(inner, Listed) and inner.start is None
     assert [[plain(each.text) for each in item if isinstance(each, Paragraph)] for item in inner.items] == [
-        ["b"], ["c", "d"],
-    ]  # fmt: skip
+        ["b"],
+        ["c", "d"],
+    ]
     assert isinstance(first, Paragraph) and isinstance(second, Paragraph) and code == Code("f\n", "py")
 
 
@@ -121,12 +136,11 @@ def test_formulas_of_their_own_are_numbered_where_they_have_a_label() -> None:
 def test_quotations_rules_and_footnotes() -> None:
     found, faults = read("> a\n>\n> - b\n\n---\n\nc[^x] d[^y]\n\n[^y]: second\n[^x]: *first*")
     quoted, rule, _, *notes = found
-    assert (
-        isinstance(quoted, Quoted) and isinstance(quoted.blocks[1], Listed) and rule == Rule() and not faults
-    )
+    assert isinstance(quoted, Quoted) and isinstance(quoted.blocks[1], Listed) and rule == Rule() and not faults
     assert [(plain(each.text), each.kind) for each in notes if isinstance(each, Paragraph)] == [
-        ("1 first", "footnote"), ("2 second", "footnote"),
-    ]  # fmt: skip
+        ("1 first", "footnote"),
+        ("2 second", "footnote"),
+    ]
 
 
 def test_pictures_have_a_caption_a_width_and_a_label(tmp_path: Path) -> None:

@@ -61,11 +61,7 @@ def test_letters_of_drawings_can_be_read_in_print(name: str) -> None:
 
 def test_headings_without_a_number_of_their_own_show_none() -> None:
     document = Document("Exercise", speaker("en"), "en", ())
-    document.blocks += [
-        Heading("Variant 1", number=False),
-        Heading("Given", 2),
-        Heading("Variant 2", number=False),
-    ]
+    document.blocks += [Heading("Variant 1", number=False), Heading("Given", 2), Heading("Variant 2", number=False)]
     text = pages(document)[0]
     shown = [re.sub(r'[#";]|<.*', "", line).strip() for line in text.split("\n") if re.match("=+ ", line)]
     assert shown == ["= Variant 1", "== 1.1  Given", "= Variant 2"]

@@ -106,15 +106,9 @@ def test_calculations_and_cams_have_reports_beside_machines(name: str) -> None:
     found = report(["gallery:crank_rocker", f"gallery:{name}"], sections=["structure"], language="zh")
     titles = [plain(b.text) for b in found.document.blocks if isinstance(b, Heading) and b.level == 1]
     problem = lw.parts.load(f"gallery:{name}")
-    assert titles == [
-        in_language(name, "zh") for name in (lw.load("gallery:crank_rocker").name, problem.name)
-    ]
+    assert titles == [in_language(name, "zh") for name in (lw.load("gallery:crank_rocker").name, problem.name)]
     printed = {
-        cell
-        for b in found.document.blocks
-        if isinstance(b, Table)
-        for row in b.rows
-        for cell in map(plain, row)
+        cell for b in found.document.blocks if isinstance(b, Table) for row in b.rows for cell in map(plain, row)
     }
     chinese = speaker("zh")
     result = problem.solve()
@@ -174,8 +168,12 @@ def test_tables_hold_no_rounding_but_in_residuals() -> None:
     """The shaper's guides carry no couple on pins at their points; its residuals are of the size of rounding."""
     found = report("gallery:shaper_quick_return", sections=["tables", "appendix"]).document.blocks
     tables = [block for block in found if isinstance(block, Table)]
-    small = {head for each in every(tables) for head, *cells in zip(each.head, *each.rows, strict=True)
-             if any(re.search(r"e-1\d", cell) for cell in cells)}  # fmt: skip
+    small = {
+        head
+        for each in every(tables)
+        for head, *cells in zip(each.head, *each.rows, strict=True)
+        if any(re.search(r"e-1\d", cell) for cell in cells)
+    }
     assert small
     assert all("Δ" in head for head in small), small
 
@@ -211,12 +209,7 @@ def test_what_a_train_does_not_carry_or_does_not_change_is_said_in_one_place() -
     heads = [head for b in found.document.blocks if isinstance(b, Table) for head in b.head]
     assert not [head for head in every(heads) if head.startswith("$F_")]
     train = ReportContext(lw.load("gallery:planetary_two_inputs"), settings({}), "en")
-    carrying = [
-        ("O", "sun"),
-        ("O", "ring"),
-        ("O", "carrier"),
-        *((p, f"planet_{k}") for k, p in enumerate("ABC", 1)),
-    ]
+    carrying = [("O", "sun"), ("O", "ring"), ("O", "carrier"), *((p, f"planet_{k}") for k, p in enumerate("ABC", 1))]
     assert loaded_joints(train) == [*carrying, ("sun_1", "planet_1"), ("ring_1", "ring")]
 
 
@@ -231,11 +224,7 @@ def test_residuals_show_two_digits() -> None:
 def test_mobility_of_a_machine_with_gears_racks_and_a_cam_adds_up() -> None:
     found = report("gallery:printing_press", sections=["structure"])
     (mobility, *_unused) = [b for b in found.document.blocks if isinstance(b, Formula)]
-    assert tuple(map(latex, mobility.sides[1:])) == (
-        "3\\,n - 2\\,p_{L} - p_{H}",
-        "3\\cdot 12 - 2\\cdot 15 - 5",
-        "1",
-    )
+    assert tuple(map(latex, mobility.sides[1:])) == ("3\\,n - 2\\,p_{L} - p_{H}", "3\\cdot 12 - 2\\cdot 15 - 5", "1")
 
 
 def test_positions_over_many_turns_show_the_input_at_many_angles() -> None:
@@ -252,15 +241,7 @@ def test_gears_have_their_ratios_and_the_geometry_of_their_teeth() -> None:
     found = report("gallery:planetary_two_inputs", sections=["gears"], language="zh")
     assert not found.missing
     cells = [list(map(plain, row)) for b in found.document.blocks if isinstance(b, Table) for row in b.rows]
-    assert [
-        "sun",
-        "24",
-        "48",
-        "45.1052",
-        "52",
-        "43",
-        "3.14159",
-    ] in cells  # d, d cos α, d + 2m, d - 2.5m, πm/2
+    assert ["sun", "24", "48", "45.1052", "52", "43", "3.14159"] in cells  # d, d cos α, d + 2m, d - 2.5m, πm/2
     willis = [tuple(map(latex, b.sides)) for b in found.document.blocks if isinstance(b, Formula)]
     assert (r"\frac{\omega_{2} - \omega_{3}}{\omega_{1} - \omega_{3}}", r"-\frac{1}{3}") in willis
 
@@ -276,8 +257,9 @@ def test_a_section_on_cams_shows_the_machines_own_profile() -> None:
     assert np.abs(own.point) == pytest.approx(seen, abs=1e-12)
     found = report(press, sections=["cams"])
     assert not found.missing
-    printed = " ".join(plain(cell) for b in found.document.blocks if isinstance(b, Table)
-                       for row in b.rows for cell in row)  # fmt: skip
+    printed = " ".join(
+        plain(cell) for b in found.document.blocks if isinstance(b, Table) for row in b.rows for cell in row
+    )
     assert (
         pgettext("cams", "pressure angle, rise").translate("en") in printed
         and _("smallest hollow radius").translate("en") in printed
@@ -315,8 +297,9 @@ def test_own_text_that_no_form_can_print_is_shown_as_written_with_the_reason(tex
     crank = replace(lw.load("gallery:crank_rocker"), report={"text": {"limits": text}})
     found = report(crank, sections=["limits"])
     assert any(told in sentence for sentence in found.missing) and not found.broken
-    assert any("panic" in plain(b.text) or "#let" in plain(b.text)
-               for b in found.document.blocks if isinstance(b, Paragraph))  # fmt: skip
+    assert any(
+        "panic" in plain(b.text) or "#let" in plain(b.text) for b in found.document.blocks if isinstance(b, Paragraph)
+    )
     assert found.content(".pdf").startswith(b"%PDF") and found.content(".docx") and found.content(".html")
 
 
@@ -335,8 +318,13 @@ def test_chinese_reports_of_the_gallery_hold_no_english_sentence() -> None:
         sections = ["task", "structure", "errata"] if name in whole else ["task"]
         found = report(f"gallery:{name}", sections=sections, language="zh")
         texts = [plain(b.text) for b in found.document.blocks if isinstance(b, Paragraph | Heading)]
-        texts += [plain(cell) for b in found.document.blocks if isinstance(b, Table) and b.label == "errata"
-                  for row in b.rows for cell in row]  # fmt: skip
+        texts += [
+            plain(cell)
+            for b in found.document.blocks
+            if isinstance(b, Table) and b.label == "errata"
+            for row in b.rows
+            for cell in row
+        ]
         english = [text for text in every(texts) if re.search(r"[a-z]{3,} [a-z]{2,} [a-z]{2,}", text)]
         assert english == []
 
@@ -396,10 +384,7 @@ driver: {turn: shaft, about: O, speed: 90 rpm}
 def test_a_machine_of_two_outputs_shows_the_motion_of_both(language: str) -> None:
     found = report(lw.loads(PRESS_AND_FEED), sections=["curves"], language=language).document.blocks
     captions = [block.caption for block in found if isinstance(block, Figure)]
-    assert [name for caption in captions for name in ("press", "table") if name in caption] == [
-        "press",
-        "table",
-    ]
+    assert [name for caption in captions for name in ("press", "table") if name in caption] == ["press", "table"]
     assert len(captions) == 4  # the angles and the paths
     one = report("gallery:shaper_quick_return", sections=["curves"], language=language).document.blocks
     assert sum(isinstance(block, Figure) for block in one) == 3
@@ -410,22 +395,24 @@ def test_lengths_of_joints_and_loads_stand_in_mm_as_those_of_links() -> None:
         "loads:\n  spring: {kind: spring, between: [frame.G, ram.B], stiffness: 2 N/mm, free_length: 0.25 m}\n"
     )
     found = report(lw.loads(text), sections=["task"]).document.blocks
-    shown = [
-        cell for block in found if isinstance(block, Table) for row in block.rows for cell in map(plain, row)
-    ]
+    shown = [cell for block in found if isinstance(block, Table) for row in block.rows for cell in map(plain, row)]
     assert any("12.5 mm" in cell for cell in shown)
     assert any("2000 N/m" in cell and "250 mm" in cell for cell in shown)
 
 
 def test_what_a_model_gives_stands_in_words_of_the_report() -> None:
     found = report("gallery:printing_press", sections=["task"], language="zh").document.blocks
-    shown = [
-        cell for block in found if isinstance(block, Table) for row in block.rows for cell in map(plain, row)
-    ]
+    shown = [cell for block in found if isinstance(block, Table) for row in block.rows for cell in map(plain, row)]
     given = {
-        "turn": "motor", "about": "O0", "speed": "-15.708 rad/s (-150 rpm)", "magnitude": "1500 N", "moving": "U.x",
-        "cam": "bell_crank", "follower": "lower_rack", "at": "P",
-    }  # fmt: skip
+        "turn": "motor",
+        "about": "O0",
+        "speed": "-15.708 rad/s (-150 rpm)",
+        "magnitude": "1500 N",
+        "moving": "U.x",
+        "cam": "bell_crank",
+        "follower": "lower_rack",
+        "at": "P",
+    }
     for key, value in given.items():
         assert any(f"{MODEL_KEYS[key].translate('zh')}：{value}" in cell for cell in shown), key
 

@@ -48,8 +48,7 @@ FILES = {
     BEAM + "report: {titel: Beam, positions: 1}\n": "report.titel",
     BEAM.replace("length: ", "length: 3 kg #") + "report: {titel: Beam}\n": "report.titel",
     BAR.replace("length", "lenght", 1): "",
-    BAR.replace("length", "lenght", 1)
-    + "course: {vari: {}}\nreport: {cover: {logo: no.png}}\n": "course.vari",
+    BAR.replace("length", "lenght", 1) + "course: {vari: {}}\nreport: {cover: {logo: no.png}}\n": "course.vari",
     BAR + "a: [\n": "",
     "": "",
 }
@@ -58,9 +57,7 @@ FILES = {
 @pytest.mark.parametrize(
     ("text", "key"), [*((f"{BAR}\n{each}\n", key) for each, key in SECTIONS.items()), *FILES.items()]
 )
-def test_every_way_finds_the_same(
-    text: str, key: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_every_way_finds_the_same(text: str, key: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "machine.yaml"
     path.write_text(text, encoding="utf-8")
     found = lw.check(path)
@@ -90,8 +87,10 @@ def test_a_section_is_read_whatever_is_wrong_with_the_others() -> None:
     found = {each["key"]: each["line"] for each in solved(text, "en")["findings"]}
     last = text.count("\n")
     assert {key: last - line for key, line in found.items() if not key.startswith("links")} == {
-        "report.titel": 1, "optimize.vari": 0, "optimize.seed": 0
-    }  # fmt: skip
+        "report.titel": 1,
+        "optimize.vari": 0,
+        "optimize.seed": 0,
+    }
 
 
 @pytest.mark.parametrize("section", ["optimize", "course", "report", "sheet", "synthesis"])
@@ -135,9 +134,7 @@ def test_files_that_a_model_names_lie_beside_it(tmp_path: Path) -> None:
     """The studio looked for them in its own folder, where a model lies in one below."""
     folder = tmp_path / "presses"
     folder.mkdir()
-    (folder / "logo.svg").write_text(
-        '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"/>', "utf-8"
-    )
+    (folder / "logo.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"/>', "utf-8")
     text = f"{BAR}\nreport: {{cover: {{logo: logo.svg}}}}\n"
     (folder / "bar.yaml").write_text(text, encoding="utf-8")
     assert lw.check(folder / "bar.yaml") == []

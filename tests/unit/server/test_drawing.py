@@ -50,10 +50,14 @@ def test_a_force_acts_on_the_link_in_the_direction_asked_for(link: str, angle: f
     assert lw.solve_forces(motion).input_torque * 2 * math.pi == pytest.approx(-power, abs=1e-9)
     assert picture(after(FOURBAR, **load))["loads"] == {
         "load1": {
-            "kind": "force", "on": link, "at": "B", "angle": pytest.approx(math.radians(angle)), "ends": [],
+            "kind": "force",
+            "on": link,
+            "at": "B",
+            "angle": pytest.approx(math.radians(angle)),
+            "ends": [],
             "size": "250 N",
         }
-    }  # fmt: skip
+    }
     key, values = told(FOURBAR, **load)
     assert (key, values["force"], values["link"], values["at"]) == ("studio.load_put", "250 N", link, "B")
 
@@ -87,9 +91,9 @@ def test_a_mass_brings_the_inertia_of_an_even_bar() -> None:
     assert "# of steel" in text
     key, values = told(FOURBAR, do="mass", link="rocker", mass="2 kg")
     assert (key, values["length"]) == ("studio.bar_inertia", f"{1e3 * length:.4g} mm")
-    assert lw.loads(after(text, do="mass", link="rocker", mass="500 g")).link(
-        "rocker"
-    ).inertia == pytest.approx(length**2 / 24, rel=1e-3)
+    assert lw.loads(after(text, do="mass", link="rocker", mass="500 g")).link("rocker").inertia == pytest.approx(
+        length**2 / 24, rel=1e-3
+    )
     own = text.replace(text.split("inertia: ")[1].split("}")[0], "0.5 kg·m²")
     heavier = lw.loads(after(own, do="mass", link="rocker", mass="3 kg")).link("rocker")
     assert (heavier.mass, heavier.inertia) == (3.0, 0.5)
@@ -108,8 +112,10 @@ def test_a_pin_that_is_removed_leaves_its_links_apart() -> None:
     apart = after(text, do="remove", what="joint", name="B")
     tree = yaml.safe_load(apart)
     assert tree["links"] == {
-        "crank": {"points": ["O1", "A"]}, "coupler": {"points": ["A", "B"]}, "rocker": {"points": ["P1", "O2"]},
-    }  # fmt: skip
+        "crank": {"points": ["O1", "A"]},
+        "coupler": {"points": ["A", "B"]},
+        "rocker": {"points": ["P1", "O2"]},
+    }
     assert tree["drawing"] == {"A": ["30 mm", "40 mm"], "B": ["160 mm", "120 mm"], "P1": ["160 mm", "120 mm"]}
     assert "push: {kind: force, on: rocker, at: P1, normal_to: [P1, O2], magnitude: 5 N}" in apart
     assert not {"joints", "assembly"} & set(tree)

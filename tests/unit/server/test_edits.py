@@ -112,9 +112,7 @@ def test_a_slide_is_drawn_on_a_point_that_no_drawing_gives() -> None:
 
 
 def test_comments_stay_where_they_are() -> None:
-    text = (
-        drawn().replace("kg·m²}\n", "kg·m²}  # of steel\n").replace("links:\n", "links:  # three of them\n")
-    )
+    text = drawn().replace("kg·m²}\n", "kg·m²}  # of steel\n").replace("links:\n", "links:  # three of them\n")
     again = edited(text, {"do": "mass", "link": "rocker", "mass": "3 kg"})
     assert again == text.replace("2 kg", "3 kg").replace("0.002667 kg·m²", "0.004 kg·m²")
 
@@ -153,9 +151,7 @@ def test_slots_and_gears_are_drawn() -> None:
     ):
         geared = edited(geared, action)
     turned = lw.solve_motion(lw.loads(geared), steps=12)
-    assert turned.link("lever").angular_velocity == pytest.approx(
-        -0.5 * turned.link("crank").angular_velocity
-    )
+    assert turned.link("lever").angular_velocity == pytest.approx(-0.5 * turned.link("crank").angular_velocity)
     with refused("studio.no_teeth", text="x"):
         edited(geared, {"do": "gear", "links": ["a", "b"], "teeth": "x"})
     with refused("studio.no_slot", name="no"):
@@ -202,9 +198,13 @@ def test_a_cam_lifts_what_slides_or_turns_on_the_frame() -> None:
 def test_a_rack_meshes_with_a_pinion_as_large_as_it_is_drawn() -> None:
     """The rack's travel is the drawn distance times the angle that the pinion swings."""
     more = (
-        DRAWN[1], DRAWN[4], DRAWN[5], DRAWN[6],
-        {"do": "point", "name": "C", "at": [0.25, -0.05]}, {"do": "link", "name": "slider1", "points": ["C"]},
-    )  # fmt: skip
+        DRAWN[1],
+        DRAWN[4],
+        DRAWN[5],
+        DRAWN[6],
+        {"do": "point", "name": "C", "at": [0.25, -0.05]},
+        {"do": "link", "name": "slider1", "points": ["C"]},
+    )
     guide = {"do": "guide", "link": "slider1", "at": "C", "angle": 30}
     mesh = {"do": "rack", "pinion": "rocker", "rack": "slider1"}
     mechanism = lw.loads(drawn_with(*more, guide, mesh))

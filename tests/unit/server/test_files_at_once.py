@@ -22,10 +22,7 @@ def test_of_several_savings_at_once_one_is_saved_and_the_others_are_told(tmp_pat
         hands = servers if k % 2 else servers[:1] * HANDS
         texts = [f"# {k} {hand}\n" for hand in range(HANDS)]
         found = at_once(
-            *(
-                lambda f=f, t=t, v=version: f.save("a.yaml", t, v, "a.yaml")
-                for f, t in zip(hands, texts, strict=True)
-            )
+            *(lambda f=f, t=t, v=version: f.save("a.yaml", t, v, "a.yaml") for f, t in zip(hands, texts, strict=True))
         )
         assert [each["saved"] for each in found].count(True) == 1
         won = next(place for place, each in enumerate(found) if each["saved"])
@@ -91,8 +88,12 @@ def test_a_drawing_under_another_name_is_never_lost(tmp_path: Path) -> None:
     assert (saved["saved"], saved["name"], saved["aside"]) == (True, first, "machine3.yaml")
     assert files.open("machine3.yaml")["text"] == "# first\n"
     assert files.open(first) == {
-        "text": "# second\n", "version": saved["version"], "name": first, "serial": 0, "recovered": False,
-    }  # fmt: skip
+        "text": "# second\n",
+        "version": saved["version"],
+        "name": first,
+        "serial": 0,
+        "recovered": False,
+    }
     assert files.unsaved() == ["machine3.yaml"]
     assert files.keep(first, "# more\n", "w", serial)["other"] is None
     assert json.loads(next(path for path in (tmp_path / ".linkwright").glob("*.json")).read_bytes())
@@ -104,6 +105,10 @@ def test_what_is_typed_while_a_file_is_saved_stays_a_draft(tmp_path: Path) -> No
     serial = files.keep("a.yaml", "# mine, and more\n", "w", 0)["serial"]
     assert files.save("a.yaml", "# mine\n", "", "a.yaml")["saved"]
     assert files.open("a.yaml") == {
-        **files.disk("a.yaml"), "name": "a.yaml", "text": "# mine, and more\n", "serial": serial, "recovered": True,
-    }  # fmt: skip
+        **files.disk("a.yaml"),
+        "name": "a.yaml",
+        "text": "# mine, and more\n",
+        "serial": serial,
+        "recovered": True,
+    }
     assert files.keep("a.yaml", "# theirs\n", "v", 0)["other"] == "# mine, and more\n"

@@ -21,8 +21,7 @@ def test_graphical_scales_are_the_next_preferred_numbers(least: float, wanted: f
 
 
 @pytest.mark.parametrize(
-    ("least", "iso", "gb"),
-    [(1.0, 1.0, 1.0), (2.1, 5.0, 2.5), (3.0, 5.0, 4.0), (0.3, 0.5, 0.4), (11.0, 20.0, 20.0)],
+    ("least", "iso", "gb"), [(1.0, 1.0, 1.0), (2.1, 5.0, 2.5), (3.0, 5.0, 4.0), (0.3, 0.5, 0.4), (11.0, 20.0, 20.0)]
 )
 def test_drawing_scales_are_those_of_the_standards(least: float, iso: float, gb: float) -> None:
     assert drawing_scale(least) == pytest.approx(iso)
@@ -30,21 +29,13 @@ def test_drawing_scales_are_those_of_the_standards(least: float, iso: float, gb:
 
 
 def test_scales_as_ratios() -> None:
-    assert [scale_text(each) for each in (1.0, 2.5, 0.5, 0.4, 20.0)] == [
-        "1:1",
-        "1:2.5",
-        "2:1",
-        "2.5:1",
-        "1:20",
-    ]
+    assert [scale_text(each) for each in (1.0, 2.5, 0.5, 0.4, 20.0)] == ["1:1", "1:2.5", "2:1", "2.5:1", "1:20"]
 
 
 def test_what_a_filled_outline_hides() -> None:
     line = np.array([(-5.0, 0.0), (5.0, 0.0)])
     left, right = visible(line, [Circle(np.zeros(2), 1.5, fill="paper")])
-    assert np.allclose(left, [(-5, 0), (-1.5, 0)], atol=1e-5) and np.allclose(
-        right, [(1.5, 0), (5, 0)], atol=1e-5
-    )
+    assert np.allclose(left, [(-5, 0), (-1.5, 0)], atol=1e-5) and np.allclose(right, [(1.5, 0), (5, 0)], atol=1e-5)
     box = Line(np.array([(-2.0, -1.0), (2.0, -1.0), (2.0, 1.0), (-2.0, 1.0)]), closed=True, fill="paper")
     left, right = visible(line, [box])
     assert np.allclose(left[1], (-2, 0), atol=1e-5) and np.allclose(right[0], (2, 0), atol=1e-5)
@@ -81,10 +72,7 @@ def test_rows_keep_off_what_is_taken() -> None:
 
 
 def test_the_cover_of_the_report_fills_the_title_block() -> None:
-    report = {
-        "author": "A",
-        "cover": {"school": "S", "class": "C", "number": 17, "author": "B", "adviser": "T"},
-    }
+    report = {"author": "A", "cover": {"school": "S", "class": "C", "number": 17, "author": "B", "adviser": "T"}}
     fields = settings({}, "en", report=report, name="machine").fields
     told = (fields.school, fields.class_name, fields.student_number, fields.student, fields.adviser)
     assert told == ("S", "C", "17", "B", "T")

@@ -22,14 +22,7 @@ from linkwright.synthesis.free_curve.linkages import Placed, linkage_of
 from linkwright.synthesis.free_curve.local_search import DAMPING
 from linkwright.synthesis.free_curve.mutations import with_dyad, with_joint
 from linkwright.synthesis.free_curve.search import Search, polished
-from linkwright.synthesis.free_curve.target import (
-    FINE,
-    MIDDLE,
-    Target,
-    even_points,
-    normal,
-    symmetric_distance,
-)
+from linkwright.synthesis.free_curve.target import FINE, MIDDLE, Target, even_points, normal, symmetric_distance
 from linkwright.synthesis.free_curve.topology import (
     FOUR_BAR,
     ONE_DYAD,
@@ -74,21 +67,27 @@ def test_gradients_are_slopes(closed: bool, rest: int) -> None:
         joints = len(nodes) // 4
         x = np.concatenate([draw.normal(0.6, 0.7, 2 * (joints - 2)), [0.3, 0.4, 3.0]])
 
-        def value(
-            at: np.ndarray, slope: np.ndarray, nodes: np.ndarray = nodes, joints: int = joints
-        ) -> float:
+        def value(at: np.ndarray, slope: np.ndarray, nodes: np.ndarray = nodes, joints: int = joints) -> float:
             arrays = [each.ctypes.data for each in (options, room, slope)]
-            found = kernels()("deviation", nodes.ctypes.data, joints, 96, 96 + rest, int(closed), at.ctypes.data,
-                              points.ctypes.data, MIDDLE.points, *arrays)  # fmt: skip
+            found = kernels()(
+                "deviation",
+                nodes.ctypes.data,
+                joints,
+                96,
+                96 + rest,
+                int(closed),
+                at.ctypes.data,
+                points.ctypes.data,
+                MIDDLE.points,
+                *arrays,
+            )
             return float(found)
 
         slope, unused = np.zeros(len(x)), np.zeros(len(x))
         if value(x, slope) > 1e3:
             continue
         numeric, longer = (
-            np.array(
-                [(value(x + h, unused) - value(x - h, unused)) / (2 * step) for h in step * np.eye(len(x))]
-            )
+            np.array([(value(x + h, unused) - value(x - h, unused)) / (2 * step) for h in step * np.eye(len(x))])
             for step in (1e-7, 1e-6)
         )
         near_numeric = pytest.approx(numeric, abs=2e-6 * max(1.0, np.abs(numeric).max()))
@@ -103,9 +102,7 @@ def test_one_more_dyad_leaves_the_curve() -> None:
     inserted = 0
     while inserted < 20:
         nodes = _some(8, draw)
-        design = Design(
-            nodes, np.concatenate([draw.normal(0.6, 0.7, len(nodes) // 2 - 4), [0.3, 0.4, 3.0]]), False
-        )
+        design = Design(nodes, np.concatenate([draw.normal(0.6, 0.7, len(nodes) // 2 - 4), [0.3, 0.4, 3.0]]), False)
         if target.descend(design, 0).value > 1e3:
             continue
         before, _ = node_paths(design.nodes, design.x, turn)
@@ -207,8 +204,22 @@ def test_the_curvature_of_a_descent_is_that_of_the_distances() -> None:
     marks = points[: MIDDLE.points] + 1j * points[MIDDLE.points : 2 * MIDDLE.points]
     inverse, room, soft = np.zeros((9, 9)), np.zeros(60000), 4e-4
     arrays = [each.ctypes.data for each in (x, points)]
-    assert kernels()("curvature", nodes.ctypes.data, 5, MIDDLE.drawn, 0, *arrays, MIDDLE.points, soft,
-                     inverse.ctypes.data, 9, room.ctypes.data) == 1.0  # fmt: skip
+    assert (
+        kernels()(
+            "curvature",
+            nodes.ctypes.data,
+            5,
+            MIDDLE.drawn,
+            0,
+            *arrays,
+            MIDDLE.points,
+            soft,
+            inverse.ctypes.data,
+            9,
+            room.ctypes.data,
+        )
+        == 1.0
+    )
 
     def moved(h: np.ndarray) -> np.ndarray:
         turned = x + h
@@ -292,8 +303,10 @@ def test_one_more_joint_leaves_the_curve_and_moves_it() -> None:
             sum(name in link for link in links) - 1 + (name in linkage.frame) for name in pins
         )
         assert 3 * len(links) - 2 * joints == 1
-        moved = [np.abs(node_paths(each.nodes, each.x + h, turn)[0][-1] - after[-1]).max()
-                 for h in 1e-4 * np.eye(len(each.x))[:-3]]  # fmt: skip
+        moved = [
+            np.abs(node_paths(each.nodes, each.x + h, turn)[0][-1] - after[-1]).max()
+            for h in 1e-4 * np.eye(len(each.x))[:-3]
+        ]
         assert sum(shift > 1e-9 for shift in moved) > len(design.x) - 3
         parted += 1
 
@@ -356,9 +369,7 @@ def _apart(path: np.ndarray, curve: np.ndarray) -> float:
 
 
 @pytest.mark.parametrize(("closed", "mirror"), [(True, False), (True, True), (False, True)])
-def test_a_curve_that_is_drawn_exactly_has_no_error_wherever_its_points_lie(
-    closed: bool, mirror: bool
-) -> None:
+def test_a_curve_that_is_drawn_exactly_has_no_error_wherever_its_points_lie(closed: bool, mirror: bool) -> None:
     nodes, numbers, share = flat([*ONE_DYAD[0]]), [2.1, 0.3, 0.9, 0.8, 0.6, 0.9], np.linspace(0, 1, 40001)
     crank = 3.0 + 2 * np.pi * share[:-1] if closed else 0.4 + 4.0 * share**2
     drawn = node_paths(nodes, np.array(numbers), crank)[0][-1]
@@ -372,28 +383,19 @@ def test_a_curve_that_is_drawn_exactly_has_no_error_wherever_its_points_lie(
 
 def test_strokes_that_go_both_ways_tell_nothing_about_the_order_of_drawing() -> None:
     numbers, crank = [2.1, 0.3, 0.9, 0.8], np.linspace(0, 2 * np.pi, 401)[:-1]
-    for nodes, tail in (
-        (flat([*FOUR_BAR]), []),
-        (flat([*ONE_DYAD[0]]), [0.6, 0.9]),
-    ):  # a rocker's arc, a loop
+    for nodes, tail in ((flat([*FOUR_BAR]), []), (flat([*ONE_DYAD[0]]), [0.6, 0.9])):  # a rocker's arc, a loop
         design = Design(nodes, np.array([*numbers, *tail, 0.0, 0.0, 0.0]), False, 0.0)
         drawn = node_paths(nodes, design.x, crank)[0][-1]
-        found = [
-            drawing(Placed(design, Target(each, True, 0.1, 20.0))).along for each in (drawn, drawn[::-1])
-        ]
+        found = [drawing(Placed(design, Target(each, True, 0.1, 20.0))).along for each in (drawn, drawn[::-1])]
         assert found == ([1.0, 0.0] if tail else [1.0, 1.0])
     open_one = Design(nodes, np.array([*numbers, *tail, 0.0, 0.4, 4.0]), False, 0.0)
     part = node_paths(nodes, open_one.x, np.linspace(0.4, 4.4, 301))[0][-1]
     retraced = np.concatenate([part, part[-2:200:-1], part[201:]])
     for given, along in ((retraced, 1.0), (retraced[::-1], 0.0)):
-        assert drawing(Placed(open_one, Target(given, False, 0.1, 20.0))).along == pytest.approx(
-            along, abs=0.02
-        )
+        assert drawing(Placed(open_one, Target(given, False, 0.1, 20.0))).along == pytest.approx(along, abs=0.02)
 
 
-@pytest.mark.parametrize(
-    ("structure", "mirror"), [*zip((*ONE_DYAD[1:], *SLIDING), 3 * (False, True), strict=True)]
-)
+@pytest.mark.parametrize(("structure", "mirror"), [*zip((*ONE_DYAD[1:], *SLIDING), 3 * (False, True), strict=True)])
 def test_slides_become_prismatic_joints(structure: list[Node], mirror: bool, tmp_path: Path) -> None:
     draw, target, nodes = np.random.default_rng(5), Target(3 * FOUR + 2, False, 0.3, 6.0), flat([*structure])
     while True:
@@ -451,12 +453,7 @@ def test_curves_from_files(tmp_path: Path) -> None:
     table = tmp_path / "a.csv"
     table.write_text("x;y\n1;2\n\n3.5; 4e0\n")
     assert list(read_curve(table)) == [1 + 2j, 3.5 + 4j]
-    for text in (
-        "x;y\n1,5;-2,25\n3;4,0",
-        "1,5\t-2,25\n3\t4,0",
-        '"1.5","-2.25"\n"3","4"',
-        "1.5 -2.25 0\n3 4 0",
-    ):
+    for text in ("x;y\n1,5;-2,25\n3;4,0", "1,5\t-2,25\n3\t4,0", '"1.5","-2.25"\n"3","4"', "1.5 -2.25 0\n3 4 0"):
         table.write_text(text)
         assert list(read_curve(table)) == [1.5 - 2.25j, 3 + 4j], text
     for text in (

@@ -50,7 +50,5 @@ def test_every_four_bar_of_poses_and_points_is_found(poses: int, count: int) -> 
         far = np.abs(pair.positions - pair.centre[:, None])
         assert np.ptp(far, axis=1) == pytest.approx(0, abs=1e-8 * max(1.0, np.abs(far).max()))
         assert np.exp(1j * angles)[~np.isnan(given)] == pytest.approx(np.exp(1j * given[~np.isnan(given)]))
-        off.append(
-            np.abs(np.exp(1j * angles) - np.exp(1j * phi)).max() + np.abs(np.sort(far[:, 0]) - [a, c]).max()
-        )
+        off.append(np.abs(np.exp(1j * angles) - np.exp(1j * phi)).max() + np.abs(np.sort(far[:, 0]) - [a, c]).max())
     assert min(off) < 1e-7

@@ -10,9 +10,7 @@ from linkwright.synthesis.nine_points.query import NinePoints, nine_points
 from linkwright.synthesis.nine_points.start import around, random_points, start_set
 from linkwright.synthesis.nine_points.tracker import residual
 
-PROBLEM_3 = [
-    (0.25, 0), (0.52, 0.1), (0.8, 0.7), (1.2, 1), (1.4, 1.3), (1.1, 1.48), (0.7, 1.4), (0.2, 1), (0.02, 0.4),
-]  # fmt: skip
+PROBLEM_3 = [(0.25, 0), (0.52, 0.1), (0.8, 0.7), (1.2, 1), (1.4, 1.3), (1.1, 1.48), (0.7, 1.4), (0.2, 1), (0.02, 0.4)]
 
 
 @pytest.fixture(scope="module")

@@ -37,9 +37,7 @@ def projected(paths: PathStarts, free: np.ndarray) -> tuple[np.ndarray, ...]:
     return tuple(np.array(each) for each in zip(*found, strict=True))
 
 
-@pytest.mark.parametrize(
-    "given", [{}, {"pivot": 0.3 + 0.1j}, {"direction": 0.4}, {"pivot": 0j, "direction": -1.0}]
-)
+@pytest.mark.parametrize("given", [{}, {"pivot": 0.3 + 0.1j}, {"direction": 0.4}, {"pivot": 0j, "direction": -1.0}])
 def test_compiled_deviations_are_those_of_the_projection(given: dict) -> None:
     rng = np.random.default_rng(2)
     points = rng.normal(size=9) + 1j * rng.normal(size=9)
@@ -58,9 +56,7 @@ def test_compiled_deviations_are_those_of_the_projection(given: dict) -> None:
 @pytest.mark.parametrize(
     ("share", "distance", "kept"), [(1e-3, 1e-9, 1), (0.03, 1e-9, 2), (1e-3, 0.0, 2), (0.03, 1.0, 1)]
 )
-def test_candidates_that_a_designer_takes_for_one_are_shown_once(
-    share: float, distance: float, kept: int
-) -> None:
+def test_candidates_that_a_designer_takes_for_one_are_shown_once(share: float, distance: float, kept: int) -> None:
     """A linkage a thousandth larger does the same, and was a candidate of its own. Exact ones (0) all stay."""
     best = lw.path_generation([(0.02, 0.02), (0.02, 0.03), (0.02, 0.04)], seed=1).best
     places = best.linkage.points

@@ -29,17 +29,7 @@ pytestmark = [
     pytest.mark.rotating,
 ]
 FOUR = np.array([0.9, 0.9 + 1.7j, 0.6j, 1.3 + 0.6j])  # a figure 4 in one stroke
-RING = [
-    (20, 10),
-    (17.66, 15.142),
-    (11.736, 17.878),
-    (5, 16.928),
-    (0.6, 12.736),
-    (1, 6),
-    (6, 2),
-    (14, 3),
-    (18, 6),
-]
+RING = [(20, 10), (17.66, 15.142), (11.736, 17.878), (5, 16.928), (0.6, 12.736), (1, 6), (6, 2), (14, 3), (18, 6)]
 FREE = [math.nan] * 7
 #: Tasks of counted work, and the piece of work of which many are done.
 COUNTED = {
@@ -173,9 +163,7 @@ def test_a_cluster_finds_what_this_machine_finds(clock: None, monkeypatch: pytes
     ):
         original, sent = client.submit, set[str]()
 
-        def noted(
-            timed: object, away: object, work: Callable[..., object], *rest: object, pure: bool
-        ) -> object:
+        def noted(timed: object, away: object, work: Callable[..., object], *rest: object, pure: bool) -> object:
             sent.add(work.__name__)
             return original(timed, away, work, *rest, pure=pure)
 

@@ -82,9 +82,7 @@ def starts(rng: np.random.Generator) -> Iterator[tuple[str, tuple[Family, Comple
     for poses in sorted(KNOWN, reverse=True):
         places, u = counted.start_set(poses)
         count = 10 - 2 * poses
-        points = np.concatenate(
-            [[places.d[poses - 1 :], places.e[poses - 1 :]], _general(rng, 2, 15 - count)], 1
-        )
+        points = np.concatenate([[places.d[poses - 1 :], places.e[poses - 1 :]], _general(rng, 2, 15 - count)], 1)
         given = places.d[: poses - 1], places.e[: poses - 1], places.g
         yield f"{poses} poses, {count} points", (Family(*given, points, count), u[:, :8])
     q, u = start_set()
@@ -150,10 +148,7 @@ def general_section(
         middle = _section(family.count, rng)
         ends, arrived = carried(z, family, start, middle)
         ends, arrived = carried(ends[arrived], family, middle, section)
-        known, more = (
-            coordinates(found, family.points, chart),
-            coordinates(ends[arrived], family.points, chart),
-        )
+        known, more = (coordinates(found, family.points, chart), coordinates(ends[arrived], family.points, chart))
         new = [np.abs(known - each).max(1).min() > SAME for each in more]
         found = np.concatenate([found, ends[arrived][np.array(new)]])
     return found

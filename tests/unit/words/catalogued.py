@@ -22,9 +22,7 @@ def sentences(language: str) -> dict[str, str]:
     return {
         f"{each.context or ''}|{english}": english if language == "en" else text
         for each in known
-        for english, text in zip_longest(
-            _forms(each.id), _forms(each.string), fillvalue=_forms(each.string)[-1]
-        )
+        for english, text in zip_longest(_forms(each.id), _forms(each.string), fillvalue=_forms(each.string)[-1])
     }
 
 

@@ -6,9 +6,7 @@ from linkwright.cli import main
 from linkwright.words.characters import one_line, printable, terminal_text
 
 
-def test_control_characters_never_reach_a_terminal(
-    capsys: pytest.CaptureFixture[str], tmp_path: object
-) -> None:
+def test_control_characters_never_reach_a_terminal(capsys: pytest.CaptureFixture[str], tmp_path: object) -> None:
     assert (
         terminal_text("a\x1b]0;x\x07b\ufffe\x1b[31mred\x1b[0m\n\t")
         == "a\ufffd]0;x\ufffdb\ufffd\ufffd[31mred\ufffd[0m\n\t"

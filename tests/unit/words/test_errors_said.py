@@ -9,9 +9,7 @@ from linkwright.words import _
 from linkwright.words.sentence import code_of, lines, values_of
 
 STEEP = _(
-    "the two slides are parallel (sine of the angle between them {sine})",
-    code="outcome.rpp_parallel",
-    sine="0",
+    "the two slides are parallel (sine of the angle between them {sine})", code="outcome.rpp_parallel", sine="0"
 )
 REMEDY = _("assembled")
 ABOUT = "{name}: {cause}"

@@ -30,9 +30,7 @@ def test_a_name_that_begins_with_a_known_one_offers_it() -> None:
         ("bolt", ["rocker", "frame"], None),
     ],
 )
-def test_a_wrong_name_finds_the_one_that_means_the_same(
-    name: str, known: list[str], meant: str | None
-) -> None:
+def test_a_wrong_name_finds_the_one_that_means_the_same(name: str, known: list[str], meant: str | None) -> None:
     assert nearest(name, known) == meant
 
 
@@ -60,21 +58,15 @@ def test_motion_laws_are_found_by_their_names_in_books(said: str, meant: str) ->
 def test_demands_of_synthesis_are_found_by_their_symbols_and_short_names() -> None:
     known = ["swing_angle", "quick_return_ratio", "frame", "rocker", "link_ratio", "count"]
     assert [nearest(each, known) for each in ("K", "swing", "行程速比系数", "摆角", "摇杆", "机架")] == [
-        "quick_return_ratio", "swing_angle", "quick_return_ratio", "swing_angle", "rocker", "frame",
-    ]  # fmt: skip
+        "quick_return_ratio",
+        "swing_angle",
+        "quick_return_ratio",
+        "swing_angle",
+        "rocker",
+        "frame",
+    ]
 
 
 def test_an_internal_pair_is_asked_for_by_its_mesh() -> None:
-    known = [
-        "kind",
-        "links",
-        "teeth",
-        "radii",
-        "carrier",
-        "phase",
-        "ratio",
-        "mesh",
-        "module",
-        "pressure_angle",
-    ]
+    known = ["kind", "links", "teeth", "radii", "carrier", "phase", "ratio", "mesh", "module", "pressure_angle"]
     assert nearest("internal", known) == "mesh"

@@ -199,9 +199,7 @@ def test_sentences_survive_copies_and_processes() -> None:
 def test_data_for_programs_stay_english(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert main(["structure", f"gallery:{CRUSHER}", "--json", "--lang", "zh"]) == 0
     rank = json.loads(capsys.readouterr().out)["rank"]
-    assert rank == words.say(
-        _("Grübler's mobility {count} is confirmed by the rank of the Jacobian", count=1)
-    )
+    assert rank == words.say(_("Grübler's mobility {count} is confirmed by the rank of the Jacobian", count=1))
     path = tmp_path / "linkage.yaml"
     path.write_text(PARALLELOGRAM, encoding="utf-8")
     assert main(["solve", str(path), "--json", "--lang", "zh"]) == 0

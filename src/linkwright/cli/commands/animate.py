@@ -48,9 +48,7 @@ linkwright animate crusher.yaml --forces --curves driver.effort --seconds 4 --ou
 )
 @arrows
 @switch("--labels", True, help=_("names of points"))
-@option(
-    "--seconds", "TIME", help=_("time of one cycle on the screen (default: the true one, within 2 to 6 s)")
-)
+@option("--seconds", "TIME", help=_("time of one cycle on the screen (default: the true one, within 2 to 6 s)"))
 @count("--frames", FRAMES, help=_("positions shown in one cycle (default: {frames})", frames=FRAMES))
 @picture_file((".svg", ".gif", ".mp4"), _("write FILE.svg, FILE.gif or FILE.mp4"))
 def run(options: Options, session: Session) -> int:
@@ -65,9 +63,15 @@ def run(options: Options, session: Session) -> int:
     motion = cycle(mechanism, max(options.steps, options.frames), session)
     shown = vectors(motion, options, solved=True)
     animation = animate(
-        motion, curves=names(options.curves), seconds=seconds, frames=options.frames, size=options.width,
-        labels=options.labels, language=session.language, **shown,
-    )  # fmt: skip
+        motion,
+        curves=names(options.curves),
+        seconds=seconds,
+        frames=options.frames,
+        size=options.width,
+        labels=options.labels,
+        language=session.language,
+        **shown,
+    )
     with progress(session, _("drawing")) as report:
         path = animation.save(options.output, width=options.width or WIDTH, progress=report, force=True)
     report_written(path, options, session)

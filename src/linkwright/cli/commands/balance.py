@@ -33,13 +33,23 @@ linkwright balance press.yaml --radius 120mm --share 0.5
 linkwright balance linkage.yaml --radius 80mm --output balanced.yaml""",
 )
 @model
-@option("--radius", "LENGTH", of=Either(RADIUS, ByAddress(RADIUS)), required=True, help=_(
-    "distance of the counterweights from the pins that carry them, one (80mm) or by link "
-    '("crank=80 mm, rod=40 mm")',
-))  # fmt: skip
-@option("--share", "NUMBER", of=SHARE, default=1.0, help=_(
-    "share that is balanced, from 0 to 1 (default 1: the shaking force vanishes)"
-))  # fmt: skip
+@option(
+    "--radius",
+    "LENGTH",
+    of=Either(RADIUS, ByAddress(RADIUS)),
+    required=True,
+    help=_(
+        "distance of the counterweights from the pins that carry them, one (80mm) or by link "
+        '("crank=80 mm, rod=40 mm")'
+    ),
+)
+@option(
+    "--share",
+    "NUMBER",
+    of=SHARE,
+    default=1.0,
+    help=_("share that is balanced, from 0 to 1 (default 1: the shaking force vanishes)"),
+)
 @count("--steps", STEPS, help=_("positions over the cycle for the comparison (default 360)"))
 @output(MODELS, _("write the balanced model to a .yaml file"))
 @force

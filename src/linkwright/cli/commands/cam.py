@@ -40,9 +40,7 @@ linkwright cam gallery:cam_roller --profile cam.dxf --points 1440""",
 )
 @count("--points", PROFILE_POINTS, help=_("points of the profile (default: 720)"))
 @output(PICTURES, _("draw cam and follower in a .svg, .pdf or .png file"), name="--draw")
-@option(
-    "--at", "DEG", of=Number(), default=0.0, help=_("angle of the cam in the drawing, degrees (default: 0)")
-)
+@option("--at", "DEG", of=Number(), default=0.0, help=_("angle of the cam in the drawing, degrees (default: 0)"))
 def run(options: Options, session: Session) -> int:
     """Solves the file's cam, shows its numbers and writes what is asked for."""
     from linkwright.cams.cam import Cam

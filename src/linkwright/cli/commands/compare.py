@@ -4,18 +4,7 @@ from __future__ import annotations
 
 from linkwright.cli.command import command
 from linkwright.cli.errors import UsageError
-from linkwright.cli.options import (
-    PICTURES,
-    RESULTS,
-    TABLES,
-    Options,
-    argument,
-    count,
-    fonts,
-    force,
-    option,
-    output,
-)
+from linkwright.cli.options import PICTURES, RESULTS, TABLES, Options, argument, count, fonts, force, option, output
 from linkwright.cli.session import Session
 from linkwright.core.arguments import STEPS
 from linkwright.fields.base import Number
@@ -29,8 +18,7 @@ TOO_FEW = _(
     cause=_("one file cannot be compared; name two or more", code="compare.too_few"),
 )
 BAD_COUNT = _(
-    "--of: {count} names are given for {files} files; name one for all, or one per file",
-    code="compare.bad_count",
+    "--of: {count} names are given for {files} files; name one for all, or one per file", code="compare.bad_count"
 )
 
 
@@ -51,9 +39,7 @@ linkwright compare a.yaml b.yaml --weights flywheel=3 peak_reaction=0
 linkwright compare a.yaml b.yaml --of jaw ram          the output of each"""
     ),
 )
-@argument(
-    "files", "FILE", nargs=-1, required=True, model=True, help=_("two or more model files, or gallery:NAME")
-)
+@argument("files", "FILE", nargs=-1, required=True, model=True, help=_("two or more model files, or gallery:NAME"))
 @option(
     "--metrics",
     "METRIC",
@@ -72,10 +58,7 @@ linkwright compare a.yaml b.yaml --of jaw ram          the output of each"""
     help=_("weights in the ranking, NAME=NUMBER each (1 where none is given)"),
 )
 @option(
-    "--of",
-    "NAME",
-    several=True,
-    help=_("the link or guide that does the work: one name for all, or one per file"),
+    "--of", "NAME", several=True, help=_("the link or guide that does the work: one name for all, or one per file")
 )
 @option(
     "--fluctuation",

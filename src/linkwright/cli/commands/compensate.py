@@ -34,9 +34,7 @@ linkwright compensate press.yaml lead --span "567 deg" --output press_with_cam.y
 @option("--zone", "FROM..TO", help=_("values of the input between which it is to be constant"))
 @option("--span", "WAY", help=_("how long the zone is to be, of the input; its place is found"))
 @count("--steps", 1440, help=_("positions over the cycle (default 1440)"))
-@output(
-    (*MODELS, ".csv"), _("write the model with the cam to a .yaml file, or the table of lifts to a .csv file")
-)
+@output((*MODELS, ".csv"), _("write the model with the cam to a .yaml file, or the table of lifts to a .csv file"))
 @force
 def run(options: Options, session: Session) -> int:
     """Finds the cam, shows what it does, and writes the model with it, or the table of its lift."""
@@ -52,9 +50,7 @@ def run(options: Options, session: Session) -> int:
         zone = None if options.zone is None else zone_of(options.zone, mechanism.across)
     with about("--span", UsageError):
         span = None if options.span is None else amount(options.span, mechanism.across)
-    found = compensating_cam(
-        mechanism, options.of, joint=options.joint, zone=zone, span=span, steps=options.steps
-    )
+    found = compensating_cam(mechanism, options.of, joint=options.joint, zone=zone, span=span, steps=options.steps)
     if options.output is not None:
         path = Path(options.output)
         text = csv_text(found.columns()) if path.suffix.lower() == ".csv" else dump(found.mechanism)

@@ -35,9 +35,7 @@ linkwright draw gallery:excavator --time "2 s" --lang zh --output excavator.svg"
 @model
 @pictures.cycle_steps(DRAWING_STEPS)
 @option(
-    "--at",
-    "INPUTS",
-    help=_('draw at this input of the first driver: "30 deg"; several drivers: "NAME=…; NAME=…"'),
+    "--at", "INPUTS", help=_('draw at this input of the first driver: "30 deg"; several drivers: "NAME=…; NAME=…"')
 )
 @option("--time", "TIME", help=_('draw at this time: "0.5 s"'))
 @option(

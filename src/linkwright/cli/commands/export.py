@@ -13,13 +13,39 @@ from linkwright.fields.tables import Integer
 from linkwright.words import _
 
 NAMES = (
-    "csv", "dxf", "html", "json", "markdown", "mjcf", "modelica", "parquet", "pdf", "png", "python", "svg", "xlsx",
-)  # fmt: skip
+    "csv",
+    "dxf",
+    "html",
+    "json",
+    "markdown",
+    "mjcf",
+    "modelica",
+    "parquet",
+    "pdf",
+    "png",
+    "python",
+    "svg",
+    "xlsx",
+)
 #: Options of formats; one that a format lacks is refused with those that it has.
 OPTIONS = (
-    "degrees", "unit", "position", "paths", "curve", "dimensions", "labels", "accelerations", "form", "name",
-    "timestep", "indent", "compression", "width", "size", "beside",
-)  # fmt: skip
+    "degrees",
+    "unit",
+    "position",
+    "paths",
+    "curve",
+    "dimensions",
+    "labels",
+    "accelerations",
+    "form",
+    "name",
+    "timestep",
+    "indent",
+    "compression",
+    "width",
+    "size",
+    "beside",
+)
 
 
 @command(
@@ -59,10 +85,7 @@ linkwright export conveyor.yaml --to solution.py              Python program"""
 @flag("--degrees", _("csv, xlsx: angles in degrees"), default=None)
 @option("--unit", choices=("mm", "m"), help=_("dxf: unit of the drawing, mm (default) or m"))
 @option(
-    "--position",
-    "N",
-    of=Integer(),
-    help=_("dxf and pictures: number of the position that is drawn (default: 0)"),
+    "--position", "N", of=Integer(), help=_("dxf and pictures: number of the position that is drawn (default: 0)")
 )
 @option(
     "--paths",

@@ -28,9 +28,7 @@ linkwright gallery copy jaw_crusher_sixbar .     a file of your own to change"""
 )
 @argument("action", "|".join(ACTIONS), choices=ACTIONS, default="list", help=_("what to do (default: list)"))
 @argument("name", "NAME", help=_("name of a model; for list: a part of names"), required=False)
-@argument(
-    "folder", "DIR", default=".", help=_("folder for the copy (default: the current one)"), required=False
-)
+@argument("folder", "DIR", default=".", help=_("folder for the copy (default: the current one)"), required=False)
 @force
 def run(options: Options, session: Session) -> int:
     """Lists the gallery, prints one of its files or copies it."""

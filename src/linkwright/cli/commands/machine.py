@@ -14,8 +14,12 @@ from linkwright.words import _
 FIELDS = file_keys(DriveOptions)
 #: Options that say the same, or of which one says nothing of the other's diagram.
 EXCLUSIVE = (
-    ("areas", "load"), ("areas", "period"), ("torque", "scale"), ("inertia", "mass"), ("inertia", "gyration"),
-)  # fmt: skip
+    ("areas", "load"),
+    ("areas", "period"),
+    ("torque", "scale"),
+    ("inertia", "mass"),
+    ("inertia", "gyration"),
+)
 
 
 @command(
@@ -50,11 +54,7 @@ linkwright machine --torque "5000 + 600*sin(2*theta)" --load "5000 + 500*sin(the
 @fields(FIELDS, {"disk": "KEY=VALUE,…", "rim": "KEY=VALUE,…"})
 @fields(FIELDS, {"areas": "MM²,…", "torque": "EXPRESSION"})
 @fields(FIELDS, {name: name.upper() for name in CURVE_OPTIONS})
-@count(
-    "--steps",
-    STEPS,
-    help=_("positions over the cycle (default 360); what lies between them is found exactly"),
-)
+@count("--steps", STEPS, help=_("positions over the cycle (default 360); what lies between them is found exactly"))
 @output(RESULTS, _("write curves to a .csv file, or all numbers to a .json, .xlsx, .md or .html file"))
 @force
 def run(options: Options, session: Session) -> int:

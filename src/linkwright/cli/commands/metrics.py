@@ -36,15 +36,9 @@ linkwright metrics crusher.yaml --output numbers.csv""",
     help=_("names of the numbers, separated by commas (default: all that apply; --json shows the names)"),
     several=True,
 )
-@count(
-    "--steps",
-    STEPS,
-    help=_("equal steps over the cycle (default 360); extreme values are refined between them"),
-)
+@count("--steps", STEPS, help=_("equal steps over the cycle (default 360); extreme values are refined between them"))
 @switch(
-    "--forces",
-    None,
-    help=_("joint forces and what follows from them (default: where the model has masses or loads)"),
+    "--forces", None, help=_("joint forces and what follows from them (default: where the model has masses or loads)")
 )
 @flag("--mark", help=_("leave out positions that cannot be reached instead of refusing"))
 @output(RESULTS, _("write the numbers to a .csv or .json file (SI units), or a .xlsx, .md or .html file"))
@@ -59,9 +53,7 @@ def run(options: Options, session: Session) -> int:
     names = metric_names(options.names)
     mechanism, _findings = read_model(options.file, session)
     failures: Literal["mark", "raise"] = "mark" if options.mark else "raise"
-    found = applicable_metrics(
-        mechanism, names, forces=options.forces, steps=options.steps, failures=failures
-    )
+    found = applicable_metrics(mechanism, names, forces=options.forces, steps=options.steps, failures=failures)
     errors = [in_language(each, session.language) for each in found.inapplicable]
     errors += [] if found.error is None else [found.error.say(session.language)]
     write_result(found.table, options, session)

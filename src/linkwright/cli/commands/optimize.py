@@ -4,28 +4,24 @@ from __future__ import annotations
 
 from linkwright.cli.command import command
 from linkwright.cli.files import write_models
-from linkwright.cli.options import (
-    MODELS,
-    PICTURES,
-    Options,
-    argument,
-    cluster,
-    fields,
-    fonts,
-    force,
-    option,
-    output,
-)
+from linkwright.cli.options import MODELS, PICTURES, Options, argument, cluster, fields, fonts, force, option, output
 from linkwright.cli.session import Session
 from linkwright.designs.optimise.problem import SECTION
 from linkwright.words import _
 
 NOTHING_STORED = _("Nothing new had been computed; run the same command again.")
 SETTINGS = {
-    "vary": "ADDRESS=RANGE", "minimize": "NUMBER", "maximize": "NUMBER", "keep": "NUMBER=DEMAND",
-    "define": "NAME=NUMBER", "tolerance": "ADDRESS=VALUE", "robust": "worst|yield", "min_yield": "SHARE",
-    "evaluations": "N", "seed": "N",
-}  # fmt: skip
+    "vary": "ADDRESS=RANGE",
+    "minimize": "NUMBER",
+    "maximize": "NUMBER",
+    "keep": "NUMBER=DEMAND",
+    "define": "NAME=NUMBER",
+    "tolerance": "ADDRESS=VALUE",
+    "robust": "worst|yield",
+    "min_yield": "SHARE",
+    "evaluations": "N",
+    "seed": "N",
+}
 
 
 @command(

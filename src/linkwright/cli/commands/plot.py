@@ -43,12 +43,7 @@ linkwright plot first.yaml second.yaml --kind reactions --joint O5"""
     required=True,
     model=True,
 )
-@option(
-    "--kind",
-    "KIND",
-    default="sva",
-    help=_("kind of diagram: {kinds} (default: sva)", kinds=", ".join(kinds())),
-)
+@option("--kind", "KIND", default="sva", help=_("kind of diagram: {kinds} (default: sva)", kinds=", ".join(kinds())))
 @option(
     "--of",
     "NAME",
@@ -57,20 +52,14 @@ linkwright plot first.yaml second.yaml --kind reactions --joint O5"""
     several=True,
 )
 @option(
-    "--joint",
-    "JOINT",
-    help=_("joint of reactions and hodographs (default: the one on the frame that carries most)"),
+    "--joint", "JOINT", help=_("joint of reactions and hodographs (default: the one on the frame that carries most)")
 )
 @option("--on", "LINK", help=_("link on which the joint's force acts"))
-@option(
-    "--axes", "LINK", help=_("frame, or a link in whose axes forces are resolved (hodograph: default both)")
-)
+@option("--axes", "LINK", help=_("frame, or a link in whose axes forces are resolved (hodograph: default both)"))
 @option(
     "--at",
     "INPUT",
-    help=_(
-        "input of a polygon: 30deg, 0.2m; 0.5s where a driver follows a law (default: the first position)"
-    ),
+    help=_("input of a polygon: 30deg, 0.2m; 0.5s where a driver follows a law (default: the first position)"),
 )
 @count("--steps", CURVE_STEPS, help=_("equal steps over the cycle (default: 720)"))
 @option(

@@ -13,10 +13,31 @@ from linkwright.words import _
 FORMS = ("pdf", "html", "docx")
 #: Names of the sections in their usual order.
 SECTIONS = (
-    "task", "drawing", "structure", "flow", "method", "worked", "tables", "curves", "reactions", "balance",
-    "free_bodies", "gears", "cams", "torque", "limits", "flywheel", "synthesis", "errata", "calls", "program",
-    "comparison", "conclusion", "appendix", "references",
-)  # fmt: skip
+    "task",
+    "drawing",
+    "structure",
+    "flow",
+    "method",
+    "worked",
+    "tables",
+    "curves",
+    "reactions",
+    "balance",
+    "free_bodies",
+    "gears",
+    "cams",
+    "torque",
+    "limits",
+    "flywheel",
+    "synthesis",
+    "errata",
+    "calls",
+    "program",
+    "comparison",
+    "conclusion",
+    "appendix",
+    "references",
+)
 
 
 @command(
@@ -38,12 +59,7 @@ linkwright report crusher.yaml --sections task structure worked tables"""
     ),
 )
 @argument(
-    "files",
-    "FILE",
-    help=_("model files, or gallery:NAME; several are compared"),
-    nargs=-1,
-    required=True,
-    model=True,
+    "files", "FILE", help=_("model files, or gallery:NAME; several are compared"), nargs=-1, required=True, model=True
 )
 @option(
     "--sections",
@@ -65,8 +81,7 @@ linkwright report crusher.yaml --sections task structure worked tables"""
     "--positions",
     "POSITIONS",
     help=_(
-        'positions of the tables: so many (default: 24), or a list: "0..-360 deg:15 deg", "0 '
-        'deg, 60 deg, limits"'
+        'positions of the tables: so many (default: 24), or a list: "0..-360 deg:15 deg", "0 deg, 60 deg, limits"'
     ),
     several=True,
 )

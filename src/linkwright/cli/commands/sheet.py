@@ -30,15 +30,9 @@ linkwright sheet shaper.yaml --size A2 --output shaper.dxf
 linkwright sheet shaper.yaml --size A1 --lang zh""",
 )
 @model
-@option(
-    "--size",
-    choices=SIZES,
-    help=_("paper size, A0 to A4 (default: what the file says, else A1, A2 for a cam)"),
-)
+@option("--size", choices=SIZES, help=_("paper size, A0 to A4 (default: what the file says, else A1, A2 for a cam)"))
 @option("--kind", choices=("mechanism", "cam"), help=_("mechanism or cam (default: what the file holds)"))
-@option(
-    "--of", "NAME", default="", help=_("the part that is meant, where there are several: the joint of a cam")
-)
+@option("--of", "NAME", default="", help=_("the part that is meant, where there are several: the joint of a cam"))
 @option("--output", "FILE", help=_("file to write: .pdf, .svg or .dxf (default: the model's name, .pdf)"))
 @fonts
 @force

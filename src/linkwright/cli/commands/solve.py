@@ -4,18 +4,7 @@ from __future__ import annotations
 
 from linkwright.cli.command import command
 from linkwright.cli.errors import UsageError
-from linkwright.cli.options import (
-    TABLES,
-    Options,
-    count,
-    flag,
-    force,
-    model,
-    option,
-    output,
-    positions,
-    switch,
-)
+from linkwright.cli.options import TABLES, Options, count, flag, force, model, option, output, positions, switch
 from linkwright.cli.session import Session
 from linkwright.cli.usage import NOT_TOGETHER
 from linkwright.words import _
@@ -51,15 +40,10 @@ linkwright solve gallery:excavator --times "0..8 s:0.5" --json"""
     several=True,
 )
 @option("--points", "POINT", help=_("position, velocity and acceleration of points: C, jaw.D"), several=True)
-@switch(
-    "--forces", None, help=_("joint forces and driver effort (default: where the model has masses or loads)")
-)
+@switch("--forces", None, help=_("joint forces and driver effort (default: where the model has masses or loads)"))
 @flag("--static", help=_("forces without inertia"))
 @flag("--mark", help=_("leave gaps where a position cannot be reached, and say why, instead of refusing"))
-@flag(
-    "--prove",
-    help=_("prove that the assembly mode does not change in any step, where groups have no closed form"),
-)
+@flag("--prove", help=_("prove that the assembly mode does not change in any step, where groups have no closed form"))
 @flag(
     "--worked",
     help=_(
@@ -89,9 +73,7 @@ def run(options: Options, session: Session) -> int:
             session.show("\n\n\n".join(page.text() for page in pages))
         return 0
     if options.output is not None:
-        write_table(
-            options.output, named_columns(solved, options), data(solved, options), force=options.force
-        )
+        write_table(options.output, named_columns(solved, options), data(solved, options), force=options.force)
     if session.json:
         session.show_data(data(solved, options))
     elif options.output is None:

@@ -12,9 +12,7 @@ LAST_PORT = 65535
 OUTSIDE = _("{name} is no model file below the folder in which the studio was started", code="studio.outside")
 
 
-NO_PORT = _(
-    "port {port} cannot be used: {reason}; choose another one, or none for a free one", code="studio.no_port"
-)
+NO_PORT = _("port {port} cannot be used: {reason}; choose another one, or none for a free one", code="studio.no_port")
 
 
 @command(
@@ -31,11 +29,7 @@ linkwright studio
 linkwright studio crusher.yaml""",
 )
 @argument(
-    "file",
-    "FILE",
-    help=_("the model file, below this folder; a new one may be named"),
-    required=False,
-    model=True,
+    "file", "FILE", help=_("the model file, below this folder; a new one may be named"), required=False, model=True
 )
 @count("--port", 0, help=_("the port (default: a free one)"))
 @flag("--no-browser", help=_("only print the address"))
@@ -54,9 +48,7 @@ def run(options: Options, session: Session) -> int:
             raise UsageError(OUTSIDE.format(name=options.file))
         name = path.relative_to(folder).as_posix()
     if not 0 <= options.port <= LAST_PORT:
-        raise UsageError(
-            NO_PORT.format(port=options.port, reason=_("ports go from 0 to {last}", last=LAST_PORT))
-        )
+        raise UsageError(NO_PORT.format(port=options.port, reason=_("ports go from 0 to {last}", last=LAST_PORT)))
     try:
         studio = started(folder, name, port=options.port, language=session.language)
     except OSError as problem:

@@ -42,9 +42,7 @@ linkwright sweep crusher.yaml --vary pitman.length=1.1..1.4m --sampling sobol --
 @sampling(65536)
 @count(
     "--steps",
-    help=_(
-        "summaries of so many positions over the cycle (without it of the whole cycle, exact between them)"
-    ),
+    help=_("summaries of so many positions over the cycle (without it of the whole cycle, exact between them)"),
 )
 @count("--part", 16384, help=_("designs of a part, rounded up to a power of two (default 16384)"))
 @cluster

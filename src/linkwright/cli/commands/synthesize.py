@@ -3,18 +3,7 @@
 from __future__ import annotations
 
 from linkwright.cli.command import command
-from linkwright.cli.options import (
-    PICTURES,
-    Options,
-    argument,
-    cluster,
-    flag,
-    fonts,
-    force,
-    option,
-    output,
-    state,
-)
+from linkwright.cli.options import PICTURES, Options, argument, cluster, flag, fonts, force, option, output, state
 from linkwright.cli.session import Session
 from linkwright.fields.base import Number
 from linkwright.synthesis.names import TASK_NAMES
@@ -52,8 +41,7 @@ linkwright synthesize press.yaml --json""",
 @option("--output", "FOLDER", help=_("write every candidate as a model file into this folder"))
 @output(PICTURES, _("draw target, candidates and curves in a .svg, .pdf or .png file"), name="--plot")
 @flag(
-    "--worked",
-    help=_("how the first candidate was found: given values, equations with their numbers, check, choice"),
+    "--worked", help=_("how the first candidate was found: given values, equations with their numbers, check, choice")
 )
 @option(
     "--mass",

@@ -34,9 +34,7 @@ def run(options: Options, session: Session) -> int:
     wanted = options.case.casefold()
     cases = [each for each in published() if wanted in f"{each.case} {each.source}".casefold()]
     if not cases:
-        raise UsageError(
-            _('no case has "{text}" in its name or source', code="validate.no_case", text=options.case)
-        )
+        raise UsageError(_('no case has "{text}" in its name or source', code="validate.no_case", text=options.case))
     with progress(session, _("comparing")) as report:
         found = validate(cases, report)
     session.show_result(found, every=options.every)

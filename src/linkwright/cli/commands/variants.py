@@ -52,9 +52,7 @@ linkwright variants crusher.yaml --count 30 --to sheets key moodle --output exer
     help=_("what to write: sheets, key, prairielearn, moodle, qti (default: all)"),
     several=True,
 )
-@option(
-    "--output", "FOLDER", help=_("folder (default: the model's name with -variants); it must not exist yet")
-)
+@option("--output", "FOLDER", help=_("folder (default: the model's name with -variants); it must not exist yet"))
 @force
 def run(options: Options, session: Session) -> int:
     """Finds the variants and writes their files."""

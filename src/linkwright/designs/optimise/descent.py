@@ -106,10 +106,12 @@ class _Searches:
         self.pushed = forces[0]
         self.here = before.with_some(trial, better)
         self.found[self.alive] = self.here.x
-        self.tried = Model(*(
-            np.concatenate([new[:, None], other[:, None], old[:, 1:MODELS]], axis=1)
-            for new, other, old in zip(self.here, trial.with_some(before, better), self.tried, strict=True)
-        ))  # fmt: skip
+        self.tried = Model(
+            *(
+                np.concatenate([new[:, None], other[:, None], old[:, 1:MODELS]], axis=1)
+                for new, other, old in zip(self.here, trial.with_some(before, better), self.tried, strict=True)
+            )
+        )
         wider = better & (gained > 0.7 * hoped) & (size > 0.9 * self.width)
         self.width = np.where(wider, np.minimum(2.0 * self.width, LARGEST), self.width)
         self.width = np.where(better, self.width, 0.5 * np.minimum(self.width, size))

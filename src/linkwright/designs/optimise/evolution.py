@@ -119,9 +119,7 @@ def joined(old: Judged, new: Judged, replaced: Indices, added: Indices) -> Judge
         return np.concatenate([found, b[added]])
 
     values = {text: merged(each, new.values[text]) for text, each in old.values.items()}
-    return Judged(
-        merged(old.x, new.x), merged(old.goals, new.goals), merged(old.violations, new.violations), values
-    )
+    return Judged(merged(old.x, new.x), merged(old.goals, new.goals), merged(old.violations, new.violations), values)
 
 
 def taken(judged: Judged, rows: Indices) -> Judged:

@@ -54,10 +54,7 @@ def spread(goals: int, count: int) -> Floats:
     parts = 0
     while goals > 1 and math.comb(parts + goals, goals - 1) <= count:
         parts += 1
-    rows = [
-        np.diff([-1, *bars, parts + goals - 1]) - 1
-        for bars in combinations(range(parts + goals - 1), goals - 1)
-    ]
+    rows = [np.diff([-1, *bars, parts + goals - 1]) - 1 for bars in combinations(range(parts + goals - 1), goals - 1)]
     return np.array(rows, dtype=float)[::-1] / max(parts, 1) if parts else np.ones((1, goals)) / goals
 
 

@@ -57,14 +57,16 @@ class Measures:
 
     def __init__(self, problem: Problem) -> None:
         self.problem, self.mechanism = problem, problem.mechanism
-        texts = dict.fromkeys(
-            [*(each.text for each in problem.goals), *(each.text for each in problem.demands)]
-        )
+        texts = dict.fromkeys([*(each.text for each in problem.goals), *(each.text for each in problem.demands)])
         self.expressions = {text: self._expression(text) for text in texts}
-        self.numbers = tuple(dict.fromkeys(
-            name for _unused, names in self.expressions.values() for name in names.values()
-            if name not in self._dimensions and name not in problem.paths
-        ))  # fmt: skip
+        self.numbers = tuple(
+            dict.fromkeys(
+                name
+                for _unused, names in self.expressions.values()
+                for name in names.values()
+                if name not in self._dimensions and name not in problem.paths
+            )
+        )
         heaviest = {each.address: each.high for each in problem.variables}
         if (missing := unloaded(self.mechanism.with_dimensions(heaviest), self.numbers)) is not None:
             raise RequestError(missing)
@@ -190,14 +192,10 @@ class Measures:
         designs = [*zip(*(column.tolist() for column in columns.values()), strict=True)]
         checkpoints = current_checkpoints()
         there = {
-            each: checkpoints and checkpoints.part(identity(*each))
-            for each in designs
-            if each not in self.judged
+            each: checkpoints and checkpoints.part(identity(*each)) for each in designs if each not in self.judged
         }
         self.judged |= {each: part[0] for each, part in there.items() if part}
-        for each, numbers in self._measured(
-            tuple(columns), [each for each, part in there.items() if not part]
-        ):
+        for each, numbers in self._measured(tuple(columns), [each for each, part in there.items() if not part]):
             self.judged[each] = numbers
             if checkpoints is not None:
                 checkpoints.add(identity(*each), numbers)
@@ -244,10 +242,7 @@ class Measures:
     def _held(self, columns: Mapping[str, Floats], count: int) -> dict[str, Floats]:
         """Dimensions that stand in expressions."""
         names = {
-            name
-            for _unused, each in self.expressions.values()
-            for name in each.values()
-            if name in self._dimensions
+            name for _unused, each in self.expressions.values() for name in each.values() if name in self._dimensions
         }
         return {name: columns.get(name, np.full(count, self._dimensions[name])) for name in names}
 
@@ -298,11 +293,7 @@ class Measures:
         return total
 
     def _numbers_with_slopes(
-        self,
-        cycle: MetricsOfDesigns,
-        names: list[str],
-        columns: Mapping[str, Floats],
-        by: tuple[str, ...],
+        self, cycle: MetricsOfDesigns, names: list[str], columns: Mapping[str, Floats], by: tuple[str, ...]
     ) -> tuple[Floats, Floats]:
         """Values (numbers, designs) and gradients (numbers, designs, k) of design numbers that a cycle finds."""
         own = [k for k, address in enumerate(by) if address in cycle.dimensions]
@@ -314,9 +305,7 @@ class Measures:
         return values, slopes
 
 
-def _designs(
-    pickled: bytes, addresses: tuple[str, ...], designs: list[tuple[float, ...]]
-) -> list[tuple[float, ...]]:
+def _designs(pickled: bytes, addresses: tuple[str, ...], designs: list[tuple[float, ...]]) -> list[tuple[float, ...]]:
     """Numbers of some designs, on a worker of a cluster."""
     measures = _of_problem(pickled)
     return [measures.measured(dict(zip(addresses, each, strict=True))) for each in designs]

@@ -116,9 +116,7 @@ def optimize(
             task = Task(asked)
         if not task.measures.side_by_side and "evaluations" not in section:
             asked = replace(asked, evaluations=SLOW)
-        size = asked.population or (
-            64 if len(asked.goals) > 1 else min(64, max(24, 8 * len(asked.variables)))
-        )
+        size = asked.population or (64 if len(asked.goals) > 1 else min(64, max(24, 8 * len(asked.variables))))
         return _Run(task, size, asked.evaluations, progress, document, leading).optimum()
 
 
@@ -160,9 +158,7 @@ def _distinct(judged: Judged) -> Judged:
     """Without designs whose objectives differ less than ``SAME_OBJECTIVES`` from those of the one before."""
     rows = [0]
     for k in range(1, len(judged.x)):
-        if (
-            np.abs(judged.goals[k] - judged.goals[rows[-1]]) > SAME_OBJECTIVES * np.abs(judged.goals[k])
-        ).any():
+        if (np.abs(judged.goals[k] - judged.goals[rows[-1]]) > SAME_OBJECTIVES * np.abs(judged.goals[k])).any():
             rows.append(k)
     return taken(judged, np.array(rows, dtype=np.intp))
 
@@ -372,9 +368,11 @@ class _Run:
         size = len(judged.x)
         values = {text: np.concatenate([each, better.values[text]]) for text, each in judged.values.items()}
         both = Judged(
-            np.concatenate([judged.x, better.x]), np.concatenate([judged.goals, better.goals]),
-            np.concatenate([judged.violations, better.violations]), values,
-        )  # fmt: skip
+            np.concatenate([judged.x, better.x]),
+            np.concatenate([judged.goals, better.goals]),
+            np.concatenate([judged.violations, better.violations]),
+            values,
+        )
         pairs = np.array([[i, j] for i in range(len(both.x)) for j in range(size, len(both.x))])
         beaten = pairs[dominates(both, both, pairs[:, 1], pairs[:, 0]), 0]
         return taken(both, np.setdiff1d(np.arange(len(both.x)), beaten))
@@ -396,23 +394,35 @@ class _Run:
                 for each in task.bounds
                 if each.violation(np.array(worst.get(each.text, chosen.values[each.text][k]))).max() > 0
             )
-            choices.append(Choice(
-                {each.address: float(values[k, i]) for i, each in enumerate(asked.variables)},
-                {text: float(each[k]) for text, each in chosen.values.items()}, missed,
-                task.yield_of(values[k]) if made and asked.tolerances and k == 0 else None,
-                worst,
-            ))  # fmt: skip
+            choices.append(
+                Choice(
+                    {each.address: float(values[k, i]) for i, each in enumerate(asked.variables)},
+                    {text: float(each[k]) for text, each in chosen.values.items()},
+                    missed,
+                    task.yield_of(values[k]) if made and asked.tolerances and k == 0 else None,
+                    worst,
+                )
+            )
         share = None
         if len(asked.goals) > 1 and np.isfinite(chosen.goals).all():
             start = np.array([goal.sign * task.at_start[goal.text] for goal in asked.goals])
             worst = np.maximum(chosen.goals.max(axis=0), np.where(np.isfinite(start), start, -np.inf))
             share = hypervolume(chosen.goals, worst)
         return Optimum(
-            asked, tuple(choices), dict(task.at_start), {each.text: (each.low, each.high) for each in task.bounds},
-            {text: task.measures.dimension(text) for text in task.measures.expressions}, task.measures.evaluations,
-            state.generation, tuple(state.history), share, task.exact, self.stopped, idle,
+            asked,
+            tuple(choices),
+            dict(task.at_start),
+            {each.text: (each.low, each.high) for each in task.bounds},
+            {text: task.measures.dimension(text) for text in task.measures.expressions},
+            task.measures.evaluations,
+            state.generation,
+            tuple(state.history),
+            share,
+            task.exact,
+            self.stopped,
+            idle,
             self.document,
-        )  # fmt: skip
+        )
 
     def _nothing(self, judged: Judged) -> Message:
         """Why no design has all numbers: none of them moves, or some numbers have no value for any."""
@@ -422,9 +432,7 @@ class _Run:
         addresses = [each.address for each in asked.variables]
         for values in self.task.place(judged.x).tolist():
             design = dict(zip(addresses, values, strict=True))
-            dimensions = ", ".join(
-                f"{each.address} {each.shown(design[each.address])}" for each in asked.variables
-            )
+            dimensions = ", ".join(f"{each.address} {each.shown(design[each.address])}" for each in asked.variables)
             try:
                 solve_motion(asked.mechanism.with_dimensions(design), steps=asked.steps)
             except PositionError as error:

@@ -118,13 +118,24 @@ class Optimum(PlotMixin, Tabular, Frozen):
             "name": self.problem.mechanism.name,
             "objectives": [{"number": each.text, "sign": each.sign} for each in self.problem.goals],
             "demands": {text: list(limits) for text, limits in self.limits.items()},
-            "units": {**{each.address: each.si for each in self.problem.variables},
-                      **{text: units.si_symbol(kind) for text, kind in self.kinds.items()}},
-            "start": {"values": dict(zip(addresses, self.problem.start.tolist(), strict=True)),
-                      "numbers": dict(self.start)},
-            "designs": [{"values": dict(each.values), "numbers": dict(each.numbers), "missed": list(each.missed),
-                         "made": each.made, "worst": {text: list(ends) for text, ends in each.worst.items()}}
-                        for each in self.choices],
+            "units": {
+                **{each.address: each.si for each in self.problem.variables},
+                **{text: units.si_symbol(kind) for text, kind in self.kinds.items()},
+            },
+            "start": {
+                "values": dict(zip(addresses, self.problem.start.tolist(), strict=True)),
+                "numbers": dict(self.start),
+            },
+            "designs": [
+                {
+                    "values": dict(each.values),
+                    "numbers": dict(each.numbers),
+                    "missed": list(each.missed),
+                    "made": each.made,
+                    "worst": {text: list(ends) for text, ends in each.worst.items()},
+                }
+                for each in self.choices
+            ],
             "hypervolume": self.hypervolume,
             "evaluations": self.evaluations,
             "generations": self.generations,
@@ -132,7 +143,7 @@ class Optimum(PlotMixin, Tabular, Frozen):
             "interrupted": self.interrupted,
             "state": None if self.state is None else str(self.state),
             "without_effect": list(self.without_effect),
-        }  # fmt: skip
+        }
 
     def __repr__(self) -> str:
         goals = ", ".join(each.text for each in self.problem.goals)

@@ -34,19 +34,13 @@ class PathErrors:
     """Values (designs,) of path errors by name, and their exact gradients."""
 
     def __init__(
-        self,
-        mechanism: Mechanism,
-        addresses: tuple[str, ...],
-        asked: Mapping[str, PathError],
-        backend: Backend,
+        self, mechanism: Mechanism, addresses: tuple[str, ...], asked: Mapping[str, PathError], backend: Backend
     ) -> None:
         self.parts: dict[str, Part] = {
             name: of_path(mechanism, addresses, each, backend) for name, each in asked.items()
         }
         self._bends = {
-            name: partial(
-                path_curvature, mechanism, addresses, each.point, len(np.array(each.target)), backend
-            )
+            name: partial(path_curvature, mechanism, addresses, each.point, len(np.array(each.target)), backend)
             for name, each in asked.items()
         }
 
@@ -58,9 +52,7 @@ class PathErrors:
         with np.errstate(all="ignore"):
             return {name: part.values(columns, _threads(columns)) for name, part in self.parts.items()}
 
-    def with_slopes(
-        self, name: str, columns: Mapping[str, Floats], by: tuple[str, ...]
-    ) -> tuple[Floats, Floats]:
+    def with_slopes(self, name: str, columns: Mapping[str, Floats], by: tuple[str, ...]) -> tuple[Floats, Floats]:
         """Values (designs,) and gradients (designs, k) by the addresses ``by``."""
         part = self.parts[name]
         with np.errstate(all="ignore"):

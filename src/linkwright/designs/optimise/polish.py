@@ -30,9 +30,7 @@ class Polish:
 
     def __init__(self, task: Task) -> None:
         self.task = task
-        self.free = np.array(
-            [each.choices is None and each.high > each.low for each in task.problem.variables]
-        )
+        self.free = np.array([each.choices is None and each.high > each.low for each in task.problem.variables])
         self.names = tuple(each.address for each in task.problem.variables)
         self.span = np.where(task.high > task.low, task.high - task.low, 1.0)
         self.limits: list[tuple[str, float, float]] = []
@@ -108,9 +106,7 @@ class Polish:
         rooms, climbs = self._left(sides)
         tightest = np.argmin(np.where(np.isnan(rooms), -np.inf, rooms), axis=1)
         room = np.take_along_axis(rooms, tightest[:, None], 1).reshape(count, -1)[:, 1:]
-        climb = np.take_along_axis(climbs, tightest[:, None, None], 1).reshape(count, -1, len(self.names))[
-            :, 1:
-        ]
+        climb = np.take_along_axis(climbs, tightest[:, None, None], 1).reshape(count, -1, len(self.names))[:, 1:]
         lost = ~np.isfinite(room)
         room, climb = np.where(lost, STUCK, room), np.where(lost[:, :, None], 0.0, climb)
         order, machines = np.argsort(room, axis=1), room.shape[1]
@@ -155,9 +151,7 @@ class Polish:
         step[1 + len(free) + np.arange(len(free)), free] = -STEP
         rows = np.clip(x[:, None, :] + step, 0.0, 1.0)
         found = self.task.measures(self.task.columns_of(self.task.place(rows.reshape(-1, k))))
-        width = np.maximum(
-            (rows[:, 1 : len(free) + 1] - rows[:, len(free) + 1 :])[:, range(len(free)), free], 1e-12
-        )
+        width = np.maximum((rows[:, 1 : len(free) + 1] - rows[:, len(free) + 1 :])[:, range(len(free)), free], 1e-12)
         values, slopes = {}, {}
         for text, column in found.items():
             each = column.reshape(count, -1)

@@ -148,15 +148,11 @@ class Problem:
     steps: int = file_key(Integer(1, 1_000_000, doc=_("positions of the cycle; default 360")), STEPS)
     evaluations: int = file_key(
         Integer(
-            1,
-            1_000_000_000,
-            doc=_("most designs of the search (4000); the last steps along gradients come on top"),
+            1, 1_000_000_000, doc=_("most designs of the search (4000); the last steps along gradients come on top")
         ),
         4000,
     )
-    population: int = file_key(
-        Integer(0, 1_000_000, doc=_("designs of a generation; chosen unless given")), 0
-    )
+    population: int = file_key(Integer(0, 1_000_000, doc=_("designs of a generation; chosen unless given")), 0)
     seed: int = file_key(
         Integer(0, 1_000_000_000, doc=_("seed of the search (0); the same seed gives the same result")), 0
     )
@@ -174,32 +170,45 @@ class Problem:
 
 _VALUES = Listed(Value(), "[20 mm, 25 mm, 32 mm]", alone=True)
 _NUMBERS = "[peak_input_torque, flywheel]"
-SECTION = Keys({
-    "vary": ByAddress(
-        Either(_VALUES, Table({"values": _VALUES, "whole": _VALUES})),
-        doc=_("bounds of dimensions and parameters, such as 80..120 mm"),
-    ),
-    "minimize": Listed(Text(), _NUMBERS, alone=True, doc=_(
-        "quantities to minimize: metrics, flywheel, summaries such as 'jaw.angle range'"
-    )),
-    "maximize": Listed(Text(), _NUMBERS, alone=True, doc=_("quantities to maximize")),
-    "keep": ByAddress(
-        DemandText(Value(), Table({key: Value() for key in ("at_least", "at_most", "same")})),
-        doc=_("demands on numbers: at least 40 deg, at most 60 kN, 1..2 m, same within 1 % of the start"),
-    ),
-    "define": ByAddress(
-        Either(Line(), Table({
-            "point": Text(required=True, doc=_("point that follows a path, such as coupler.P")),
-            "target": Listed(
-                Target("length", ("x", "y")), "[[30 mm, 40 mm], [32 mm, 41 mm]]", required=True,
-                doc=_("places of the point, one for each position"),
+SECTION = Keys(
+    {
+        "vary": ByAddress(
+            Either(_VALUES, Table({"values": _VALUES, "whole": _VALUES})),
+            doc=_("bounds of dimensions and parameters, such as 80..120 mm"),
+        ),
+        "minimize": Listed(
+            Text(),
+            _NUMBERS,
+            alone=True,
+            doc=_("quantities to minimize: metrics, flywheel, summaries such as 'jaw.angle range'"),
+        ),
+        "maximize": Listed(Text(), _NUMBERS, alone=True, doc=_("quantities to maximize")),
+        "keep": ByAddress(
+            DemandText(Value(), Table({key: Value() for key in ("at_least", "at_most", "same")})),
+            doc=_("demands on numbers: at least 40 deg, at most 60 kN, 1..2 m, same within 1 % of the start"),
+        ),
+        "define": ByAddress(
+            Either(
+                Line(),
+                Table(
+                    {
+                        "point": Text(required=True, doc=_("point that follows a path, such as coupler.P")),
+                        "target": Listed(
+                            Target("length", ("x", "y")),
+                            "[[30 mm, 40 mm], [32 mm, 41 mm]]",
+                            required=True,
+                            doc=_("places of the point, one for each position"),
+                        ),
+                    },
+                    PathError,
+                ),
             ),
-        }, PathError)),
-        doc=_("names for expressions of numbers, and for errors of paths"),
-    ),
-    "tolerance": ByAddress(Line(), doc=_("± of dimensions, such as 0.1 mm")),
-    **file_keys(Problem),
-})  # fmt: skip
+            doc=_("names for expressions of numbers, and for errors of paths"),
+        ),
+        "tolerance": ByAddress(Line(), doc=_("± of dimensions, such as 0.1 mm")),
+        **file_keys(Problem),
+    }
+)
 
 
 def problem(mechanism: Mechanism, settings: Mapping[str, Any] | None = None, source: str = "") -> Problem:
@@ -233,9 +242,7 @@ class _Reading(SectionReading):
         if not goals:
             self.note(
                 "minimize",
-                _(
-                    "no objective given; add minimize: or maximize: with a metric such as peak_input_torque",
-                ),
+                _("no objective given; add minimize: or maximize: with a metric such as peak_input_torque"),
                 "no-goal",
             )
         sought = [goal.text.strip() for goal in goals]
@@ -255,9 +262,7 @@ class _Reading(SectionReading):
             )
         self.settle()
         numbers = {key: self.values[key] for key in file_keys(Problem) if key in self.values}
-        return Problem(
-            self.mechanism, tuple(variables), goals, demands, define, paths, tolerances, **numbers
-        )  # fmt: skip
+        return Problem(self.mechanism, tuple(variables), goals, demands, define, paths, tolerances, **numbers)
 
     def _read(self, key: str) -> dict[str, Any]:
         """What could be read by names."""
@@ -358,8 +363,7 @@ class _Reading(SectionReading):
         if len(choices) < 1:
             raise RequestError(
                 _(
-                    "{address} has no value to choose from; give values: or a whole: range that holds an "
-                    "integer",
+                    "{address} has no value to choose from; give values: or a whole: range that holds an integer",
                     code="optimize.no_choice",
                     address=address,
                 )
@@ -394,11 +398,7 @@ def _demand(value: Any) -> Demand | None:
     """``at least 40 deg``, ``at most 60 kN``, ``1 m..2 m``, ``same``, ``same within 1 %``, or a mapping of these."""
     if isinstance(value, Mapping):
         texts = {key: str(each) for key, each in value.items()}
-        return (
-            Demand("", texts.get("at_least", ""), texts.get("at_most", ""), texts.get("same"))
-            if texts
-            else None
-        )
+        return Demand("", texts.get("at_least", ""), texts.get("at_most", ""), texts.get("same")) if texts else None
     plain = str(value).strip()
     for head in ("at least", "at most", "same within", "same"):
         if plain.startswith(head):

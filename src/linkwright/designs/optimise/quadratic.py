@@ -32,15 +32,7 @@ def quadratic(
     force = np.minimum(1.0, 0.5 * price)
     # positive numbers in pairs whose products go to zero: multipliers in the first half, what they hold in the second
     values = np.concatenate(
-        [
-            force,
-            price - force,
-            np.ones((count, 2 * n)),
-            _times(rows, u) + lack - bounds,
-            lack,
-            u - low,
-            high - u,
-        ],
+        [force, price - force, np.ones((count, 2 * n)), _times(rows, u) + lack - bounds, lack, u - low, high - u],
         axis=1,
     )
     half, moves, share = 2 * (m + n), np.empty(values.shape), np.full((count, 1), AIM)

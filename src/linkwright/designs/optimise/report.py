@@ -42,7 +42,7 @@ def _notes(found: Optimum) -> Iterator[str]:
     elif moved and not found.problem.robust:
         yield _(
             "This machine's designs go one after the other, and the last steps used "
-            "differences: slower, and less exact.",
+            "differences: slower, and less exact."
         )
     if found.best.worst:
         yield _("At the worst within the tolerances: {numbers}.", numbers=", ".join(_worst(found)))
@@ -53,8 +53,7 @@ def _notes(found: Optimum) -> Iterator[str]:
         )
     for each in found.without_effect:
         yield _(
-            "{address} changes none of these numbers; leave it out of vary:, or ask for a number "
-            "that it changes.",
+            "{address} changes none of these numbers; leave it out of vary:, or ask for a number that it changes.",
             address=each,
         )
     if found.interrupted:

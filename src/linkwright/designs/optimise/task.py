@@ -74,8 +74,7 @@ class Task:
         self.low = np.array([each.low for each in problem.variables])
         self.high = np.array([each.high for each in problem.variables])
         self.at_start = {
-            text: float(value[0])
-            for text, value in self.measures(self.columns_of(problem.start[None])).items()
+            text: float(value[0]) for text, value in self.measures(self.columns_of(problem.start[None])).items()
         }
         self.bounds = self._bounds()
 
@@ -119,9 +118,7 @@ class Task:
     def _finite(self, goals: Floats, values: Mapping[str, Floats]) -> tuple[Floats, Floats]:
         misses = [each.violation(values[each.text]) for each in self.bounds]
         violations = np.column_stack(misses) if misses else np.zeros((len(goals), 1))
-        stuck = ~np.isfinite(np.column_stack([goals, *(values[each.text] for each in self.bounds)])).all(
-            axis=1
-        )
+        stuck = ~np.isfinite(np.column_stack([goals, *(values[each.text] for each in self.bounds)])).all(axis=1)
         goals, violations = goals.copy(), violations.copy()
         goals[stuck], violations[stuck] = np.inf, np.inf
         return goals, violations
@@ -188,9 +185,7 @@ class Task:
         goals = np.column_stack([goal.sign * worst[goal.text, goal.sign] for goal in self.problem.goals])
         misses = [np.zeros(len(x))]
         for each in self.bounds:
-            both = [
-                each.violation(worst[each.text, sign]) for sign in (1.0, -1.0) if (each.text, sign) in worst
-            ]
+            both = [each.violation(worst[each.text, sign]) for sign in (1.0, -1.0) if (each.text, sign) in worst]
             misses.append(np.max(both, axis=0))
         stuck = ~np.isfinite([*drawn.values(), *worst.values()]).all(axis=0)
         violations = np.column_stack(misses)
@@ -208,9 +203,7 @@ class Task:
         goals = np.column_stack([goal.sign * worst[goal.text] for goal in self.problem.goals])
         misses = [each.violation(values[each.text]) for each in self.bounds]
         if self.problem.robust == "worst":
-            violations = (
-                np.column_stack([each.max(1) for each in misses]) if misses else np.zeros((len(x), 1))
-            )
+            violations = np.column_stack([each.max(1) for each in misses]) if misses else np.zeros((len(x), 1))
         else:
             missed = sum(misses, np.zeros(next(iter(values.values())).shape))
             met = (missed == 0.0) & np.isfinite([*values.values()]).all(axis=0)
@@ -315,36 +308,25 @@ class Task:
                     ),
                     code="no-start",
                 )
-            within = (
-                float(share[1]) / 100 * abs(start) if share else self._value(demand.same, kind, demand.text)
-            )
+            within = float(share[1]) / 100 * abs(start) if share else self._value(demand.same, kind, demand.text)
             within = max(within, 1e-12 * abs(start))
             return Bounds(demand.text, start - within, start + within, max(within, 1e-3 * abs(start)))
         low = self._value(demand.low, kind, demand.text) if demand.low else -np.inf
         high = self._value(demand.high, kind, demand.text) if demand.high else np.inf
         if low > high:
             message = _(
-                "the range falls from {low} to {high}; write the lower value first",
-                low=demand.low,
-                high=demand.high,
+                "the range falls from {low} to {high}; write the lower value first", low=demand.low, high=demand.high
             )
             raise QuantityError(message, code="falling-demand")
         sizes = [abs(each) for each in (low, high) if np.isfinite(each) and each] or [abs(start)]
-        return Bounds(
-            demand.text, low, high, max(sizes) if np.isfinite(max(sizes)) and max(sizes) > 0 else 1.0
-        )
+        return Bounds(demand.text, low, high, max(sizes) if np.isfinite(max(sizes)) and max(sizes) > 0 else 1.0)
 
     def _value(self, text: str, kind: units.Dimension, name: str) -> float:
         number, unit = _split(text)
         factor, dimension = units.unit(unit) if unit else (1.0, units.NONE)
         if dimension != kind:
             symbol = units.usual_symbol(kind)
-            values = {
-                "text": name,
-                "need": units.name_of(kind),
-                "given": text,
-                "right": f"{number:.12g} {symbol}",
-            }
+            values = {"text": name, "need": units.name_of(kind), "given": text, "right": f"{number:.12g} {symbol}"}
             if symbol:
                 raise QuantityError(
                     _(
@@ -369,7 +351,6 @@ def _split(text: str) -> tuple[float, str]:
     match = re.match(r"^([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)$", text.strip())
     if match is None:
         raise QuantityError(
-            _('"{text}" is no value; write a number with its unit, such as 40 deg', text=text),
-            code="quantity",
+            _('"{text}" is no value; write a number with its unit, such as 40 deg', text=text), code="quantity"
         )
     return float(match[1]), match[2].strip()

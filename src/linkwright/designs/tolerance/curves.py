@@ -31,13 +31,7 @@ class CurveSpread:
 
     def moved(self, shift: Floats) -> CurveSpread:
         """The same about other values."""
-        places = (
-            self.mean + shift,
-            self.minimum + shift,
-            self.maximum + shift,
-            self.low + shift,
-            self.high + shift,
-        )
+        places = (self.mean + shift, self.minimum + shift, self.maximum + shift, self.low + shift, self.high + shift)
         mean, minimum, maximum, low, high = places
         return CurveSpread(mean, self.deviation, minimum, maximum, low, high, self.machines)
 
@@ -71,9 +65,7 @@ class Counted:
         mean = self.sums[0] / self.count
         variance = np.maximum(self.sums[1] - self.count * mean * mean, 0.0) / max(self.count - 1, 1)
         low, high = (self._quantile(share) for share in shares)
-        return CurveSpread(
-            self.middle + mean, np.sqrt(variance), self.minimum, self.maximum, low, high, self.count
-        )
+        return CurveSpread(self.middle + mean, np.sqrt(variance), self.minimum, self.maximum, low, high, self.count)
 
     def _quantile(self, share: float) -> Floats:
         """The value that a share of the machines stays below, even within each bin, (n,)."""

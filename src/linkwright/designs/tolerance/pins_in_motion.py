@@ -227,7 +227,5 @@ def _at_hole(load: Load, pin: str, on: str, hole: str) -> Load:
     for one in fields(load):
         value = getattr(load, one.name)
         if one.name not in ("name", "on") and pin in (value if isinstance(value, tuple) else (value,)):
-            moved[one.name] = (
-                tuple(hole if g == pin else g for g in value) if isinstance(value, tuple) else hole
-            )
+            moved[one.name] = tuple(hole if g == pin else g for g in value) if isinstance(value, tuple) else hole
     return replace(load, **moved)  # type: ignore[arg-type]

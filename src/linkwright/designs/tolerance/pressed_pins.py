@@ -86,10 +86,7 @@ def exact(study: Tolerances, output: str) -> Floats:
 
 
 def _moved(
-    study: Tolerances,
-    holes: Mapping[str, tuple[str, str]],
-    nominal: Mapping[str, float],
-    ways: Mapping[str, Floats],
+    study: Tolerances, holes: Mapping[str, tuple[str, str]], nominal: Mapping[str, float], ways: Mapping[str, Floats]
 ) -> dict[str, float]:
     changes = {}
     for pin, pair in holes.items():

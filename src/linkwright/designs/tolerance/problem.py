@@ -65,8 +65,7 @@ class Clearance:
     clearance: float = file_key(Quantity("length", above=0.0, doc="radius of the hole less that of the pin"))
     on: str = file_key(Text(doc="the link with the hole"))
     kind: str = file_key(
-        Word(("free", "pressed"), doc="free: the pin lies anywhere; pressed: where the reaction presses it"),
-        "free",
+        Word(("free", "pressed"), doc="free: the pin lies anywhere; pressed: where the reaction presses it"), "free"
     )
 
 
@@ -110,23 +109,25 @@ class Tolerances(OfMechanism):
 
     kind: ClassVar[str] = "tolerance"
     mechanism: Mechanism = file_key(MECHANISM)
-    dimensions: Mapping[str, Tolerance] = file_key(ByAddress(
-        ToleranceField(AnyQuantity(), Table(TOLERANCE, _tolerance)),
-        doc="by dimension: crank.length: 0.05 mm, or {tolerance: 0.05 mm, distribution: uniform}",
-    ), dict)  # fmt: skip
-    clearances: Mapping[str, Clearance] = file_key(Named(
-        Table.of(Clearance), _("pin"), doc="clearances by pin: {clearance: 0.02 mm, on: rocker, kind: pressed}",
-    ), dict)  # fmt: skip
-    of: tuple[str, ...] = file_key(
-        Listed(Text(), '["rocker.angle range"]', doc="summaries over the cycle"), ()
+    dimensions: Mapping[str, Tolerance] = file_key(
+        ByAddress(
+            ToleranceField(AnyQuantity(), Table(TOLERANCE, _tolerance)),
+            doc="by dimension: crank.length: 0.05 mm, or {tolerance: 0.05 mm, distribution: uniform}",
+        ),
+        dict,
     )
+    clearances: Mapping[str, Clearance] = file_key(
+        Named(
+            Table.of(Clearance), _("pin"), doc="clearances by pin: {clearance: 0.02 mm, on: rocker, kind: pressed}"
+        ),
+        dict,
+    )
+    of: tuple[str, ...] = file_key(Listed(Text(), '["rocker.angle range"]', doc="summaries over the cycle"), ())
     curves: tuple[str, ...] = file_key(Listed(Text(), "[rocker.angle]", doc="outputs over the cycle"), ())
     limits: Mapping[str, Limit] = file_key(
         ByAddress(Table(LIMIT, _limit), doc="limits by summary: {lower: 59 deg, upper: 61 deg}"), dict
     )
-    samples: int = file_key(
-        Integer(MIN_SAMPLES, doc="machines of the Monte Carlo study; default: 8192"), 8192
-    )
+    samples: int = file_key(Integer(MIN_SAMPLES, doc="machines of the Monte Carlo study; default: 8192"), 8192)
     seed: int = file_key(Integer(0, 2**32 - 1, doc="seed of the random numbers"), 1)
     steps: int = file_key(Integer(4, doc="positions of the curves over the cycle; default: 360"), STEPS)
     name: str = ""

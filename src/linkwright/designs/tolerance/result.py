@@ -99,9 +99,7 @@ class Spread(Result):
                             "pressed_number",
                             f"of.{self.study.of.index(text)}",
                             _('"{name}" is a design number; pressed pins shift summaries of outputs alone'),
-                            _(
-                                "name a summary such as rocker.angle range, or leave the pressed clearances out"
-                            ),
+                            _("name a summary such as rocker.angle range, or leave the pressed clearances out"),
                             name=text,
                         )
                     ]
@@ -326,9 +324,7 @@ class Spread(Result):
         middle, sigma = self.nominal(text) + (0.0 if math.isnan(shift) else shift), self.linear(text)
         if not sigma:
             return float(limit.lower <= middle <= limit.upper)
-        return float(
-            stats.norm.cdf((limit.upper - middle) / sigma) - stats.norm.cdf((limit.lower - middle) / sigma)
-        )
+        return float(stats.norm.cdf((limit.upper - middle) / sigma) - stats.norm.cdf((limit.lower - middle) / sigma))
 
     # why they differ ------------------------------------------------------------------------------
     @cached_property
@@ -346,8 +342,10 @@ class Spread(Result):
     def bend(self, text: str) -> tuple[str, float]:
         """The largest contributor, and how much the summary bends over ±2σ of it: |y₊ + y₋ − 2y₀|/|y₊ − y₋|."""
         summary = self.summaries[text]
-        deviations = {a: (t.deviation, abs(self.gradients.by_name(summary.name)[a]) * t.deviation)
-                      for a, t in self.study.deviating.items()}  # fmt: skip
+        deviations = {
+            a: (t.deviation, abs(self.gradients.by_name(summary.name)[a]) * t.deviation)
+            for a, t in self.study.deviating.items()
+        }
         for pair in self.study.holes("free").values():
             for a in pair:
                 size = self.study.clearances[a.split(".")[-2]].clearance / math.sqrt(2)
@@ -363,9 +361,7 @@ class Spread(Result):
         """Whether linear and Monte Carlo agree, and if not, why."""
         if self.swept is None or (self.failed == 0 and abs(self.ratio(text) - 1.0) <= AGREE):
             return (
-                ""
-                if self.swept is None
-                else say(_("{name}: linear and Monte Carlo agree within 0.5 %.", name=text))
+                "" if self.swept is None else say(_("{name}: linear and Monte Carlo agree within 0.5 %.", name=text))
             )
         lines = []
         if abs(self.ratio(text) - 1.0) > AGREE or math.isnan(self.ratio(text)):
@@ -407,14 +403,14 @@ class Spread(Result):
                 _(
                     "{name}: Monte Carlo gives {ratio} times the linear spread, because the number is "
                     "not linear in the tolerances: over ±2σ of {dimension} it bends by {bend} of its "
-                    "change.",
+                    "change."
                 ).format(**values)
             )
         return say(
             _(
                 "{name}: Monte Carlo gives {ratio} times the linear spread, and the number hardly "
                 "bends over the tolerances ({bend} over ±2σ of {dimension}): {count} machines tell "
-                "the spread no better; give more samples.",
+                "the spread no better; give more samples."
             ).format(count=len(self.values(text)), **values)
         )
 
@@ -456,22 +452,14 @@ class Spread(Result):
         shift = self.shift(text)
         if self.study.holes("pressed"):
             gaps = int((~self.followed.followed).sum()) if math.isnan(shift) else 0
-            unknown = (
-                _("not tracked (the pins cannot follow at {count} positions)", count=gaps) if gaps else ""
-            )
+            unknown = _("not tracked (the pins cannot follow at {count} positions)", count=gaps) if gaps else ""
             rows.append(Row("shift", shift, kind, text=unknown))
         if self.swept is not None:
             values = self.values(text)
             low, high = np.quantile(values, QUANTILES).tolist()
             rows += [
                 Row("linear", self.linear(text), kind),
-                Row(
-                    "monte_carlo",
-                    self.monte_carlo(text),
-                    kind,
-                    "",
-                    _("{count} machines", count=len(values)),
-                ),
+                Row("monte_carlo", self.monte_carlo(text), kind, "", _("{count} machines", count=len(values))),
                 Row("mean", float(values.mean()), kind),
                 Row("range", low, kind, end=high),
                 Row("worst", self.worst_case(text), kind),
@@ -493,9 +481,7 @@ class Spread(Result):
             parts.append(Row(each.name, each.share, label=each.name, note=note, text=percent))
         found = [Block(text, text, rows, tuple(filter(None, [self.reason(text, say)])))]
         return (
-            [*found, Block(f"{text}: contributions", _("Contributions to the variance"), parts)]
-            if parts
-            else found
+            [*found, Block(f"{text}: contributions", _("Contributions to the variance"), parts)] if parts else found
         )
 
     def _pins_remark(self, output: str, say: Translate) -> tuple[str, ...]:
@@ -505,14 +491,7 @@ class Spread(Result):
         settled = self.followed.followed
         off = float(self.followed.residual[settled].max()) if settled.any() else math.nan
         sentences = (
-            [
-                say(
-                    _(
-                        "The pins lie within {off} of where their reactions press them.",
-                        off=shown(off, "angle", 2),
-                    )
-                )
-            ]
+            [say(_("The pins lie within {off} of where their reactions press them.", off=shown(off, "angle", 2)))]
             if settled.any()
             else []
         )
@@ -581,6 +560,4 @@ class Spread(Result):
                 if not math.isnan(shift):
                     step.put(f"Δ {text}", "", shift, self.dimension(text))
             found.append(step)
-        return found or [
-            Step("1", say(_("σ² = Σ (∂y/∂p)²·σ_p², derivatives exact at the nominal mechanism (SI)")))
-        ]
+        return found or [Step("1", say(_("σ² = Σ (∂y/∂p)²·σ_p², derivatives exact at the nominal mechanism (SI)")))]

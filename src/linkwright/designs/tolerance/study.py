@@ -43,12 +43,7 @@ class ToleranceStudy(Tolerances):
             []
             if self.of or self.curves
             else [
-                fault(
-                    "nothing_asked",
-                    "of",
-                    _("nothing is asked"),
-                    _('write of: ["rocker.angle range"], or curves'),
-                )
+                fault("nothing_asked", "of", _("nothing is asked"), _('write of: ["rocker.angle range"], or curves'))
             ]
         )
         for address, tolerance in self.dimensions.items():

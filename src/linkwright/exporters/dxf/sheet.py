@@ -142,9 +142,7 @@ class Sheet:
     def _item(self, item: Line | Circle, carrier: str, layer: str) -> None:
         machine = self.scene.machine
         x, y, turn = machine.view.transform(machine.placed[carrier], self.index)
-        at = item.placed(np.array([x, y]), math.radians(turn)).placed(
-            np.zeros(2), scale=(self.unit, -self.unit)
-        )
+        at = item.placed(np.array([x, y]), math.radians(turn)).placed(np.zeros(2), scale=(self.unit, -self.unit))
         add(self.space, at, layer)
 
     def _pins(self) -> None:
@@ -187,10 +185,22 @@ def check_unit(unit: str) -> tuple[float, int]:
 def set_dimension_style(document: Any, height: float, decimals: int) -> None:
     """The style of dimensions."""
     style = document.dimstyles.new(STYLE)
-    for key, value in {"dimtxt": height, "dimasz": 0.8 * height, "dimexo": 0.4 * height, "dimexe": 0.5 * height,
-                       "dimgap": 0.3 * height, "dimdec": decimals, "dimadec": 4, "dimzin": 8, "dimazin": 2,
-                       "dimdsep": ord("."), "dimtad": 1, "dimlfac": 1.0, "dimscale": 1.0,
-                       "dimtxsty": STYLE}.items():  # fmt: skip
+    for key, value in {
+        "dimtxt": height,
+        "dimasz": 0.8 * height,
+        "dimexo": 0.4 * height,
+        "dimexe": 0.5 * height,
+        "dimgap": 0.3 * height,
+        "dimdec": decimals,
+        "dimadec": 4,
+        "dimzin": 8,
+        "dimazin": 2,
+        "dimdsep": ord("."),
+        "dimtad": 1,
+        "dimlfac": 1.0,
+        "dimscale": 1.0,
+        "dimtxsty": STYLE,
+    }.items():
         style.set_dxf_attrib(key, value)
 
 

@@ -24,9 +24,7 @@ LAYERS = {"profile": 7, "pitch": 8, "cutter": 3, "base": 150}
 _MM = 1e3
 
 
-def save_profile(
-    design: CamDesign, path: str | Path, points: int = PROFILE_POINTS, *, force: bool = False
-) -> Path:
+def save_profile(design: CamDesign, path: str | Path, points: int = PROFILE_POINTS, *, force: bool = False) -> Path:
     """Writes the profile as the file's ending says; raises LinkwrightError where that cannot be."""
     path = Path(path)
     if path.suffix.lower() not in ENDINGS:

@@ -21,11 +21,7 @@ def of_result(result: Tabular, language: str) -> bytes:
     """The curves or columns of a result, SI; without any its tables as they are shown, below one another."""
     if columns := result.columns():
         return csv_text(columns).encode()
-    parts = [
-        csv_rows([row for row in each.texts(language) if row])
-        for each in result.tables(language)
-        if each.rows
-    ]
+    parts = [csv_rows([row for row in each.texts(language) if row]) for each in result.tables(language) if each.rows]
     return "\n".join(parts).encode()
 
 

@@ -18,9 +18,7 @@ def content(results: Results, *, indent: int = 1) -> bytes:
 
     What is not a finite number is null. ``indent``: spaces per level.
     """
-    return (
-        json.dumps(plain(_data(results)), ensure_ascii=False, allow_nan=False, indent=indent) + "\n"
-    ).encode()
+    return (json.dumps(plain(_data(results)), ensure_ascii=False, allow_nan=False, indent=indent) + "\n").encode()
 
 
 def of_result(result: Tabular, language: str) -> bytes:

@@ -31,8 +31,14 @@ def mjcf_content(results: Results, *, timestep: float | None = None) -> bytes:
     step = timestep if timestep is not None else seconds(results.motion) / STEPS_PER_CYCLE
     root = ET.Element("mujoco", model=results.mechanism.name)
     ET.SubElement(root, "compiler", angle="radian", autolimits="true")
-    option = {"timestep": f"{step:.17g}", "integrator": "implicitfast", "solver": "Newton", "iterations": "200",
-              "tolerance": "1e-14", "gravity": numbers((*results.mechanism.gravity, 0.0))}  # fmt: skip
+    option = {
+        "timestep": f"{step:.17g}",
+        "integrator": "implicitfast",
+        "solver": "Newton",
+        "iterations": "200",
+        "tolerance": "1e-14",
+        "gravity": numbers((*results.mechanism.gravity, 0.0)),
+    }
     ET.SubElement(ET.SubElement(root, "option", option), "flag", contact="disable")
     stiff = ET.SubElement(root, "default")
     ET.SubElement(stiff, "equality", solref=numbers((2 * step, 1.0)), solimp="0.9999 0.9999 0.001 0.5 2")
@@ -82,11 +88,7 @@ def modelica_content(
     index = results.first_ok()
     if form not in FORMS:
         raise RequestError(
-            _(
-                'the equations are of "positions" or of "rates", not of "{form}"',
-                code="export.bad_form",
-                form=form,
-            )
+            _('the equations are of "positions" or of "rates", not of "{form}"', code="export.bad_form", form=form)
         )
     if form == "rates":
         text = Rates(results, index, seconds(motion) / RELAXATIONS).write()

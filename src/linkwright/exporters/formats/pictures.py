@@ -23,9 +23,7 @@ caption { text-align: left; font-weight: bold } th, td { padding: .1em .6em } th
 </style>"""
 
 
-def svg(
-    results: Results, *, position: int = 0, paths: Sequence[str] = (), size: float | None = None
-) -> bytes:
+def svg(results: Results, *, position: int = 0, paths: Sequence[str] = (), size: float | None = None) -> bytes:
     """The drawing at a position with the paths of points; ``size``: longer side in pixels."""
     return _svg(results, position, paths, size).encode()
 
@@ -112,9 +110,7 @@ def _index(results: Results, position: int | None) -> int:
 FORMATS.register("dxf")(Format((".dxf",), dxf))
 
 
-def html(
-    results: Results, *, text: str | None = None, compared: Sequence[Mechanism | Document] = ()
-) -> bytes:
+def html(results: Results, *, text: str | None = None, compared: Sequence[Mechanism | Document] = ()) -> bytes:
     """The living page of a machine.
 
     ``text``: the model file's own text, which the page gives back with the changed numbers; ``beside``: further

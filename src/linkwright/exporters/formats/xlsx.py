@@ -114,11 +114,7 @@ class Sheets:
                 sheet.set_column(0, 0, 40)
                 sheet.set_column(1, 20, 16)
             heads = [([table.title], None), (table.head, self.head)]
-            rows = [
-                *heads,
-                *((cells, self.text) for cells in table.rows),
-                *(([note], None) for note in table.notes),
-            ]
+            rows = [*heads, *((cells, self.text) for cells in table.rows), *(([note], None) for note in table.notes)]
             for cells, form in rows:
                 self._put(sheet, row, cells, form)
                 row += any(cells)
@@ -202,9 +198,7 @@ class Workbook(Sheets):
             subject = table.subject if index >= len(leading) else "positions"
             place = Place(sheet.get_name(), index, column)
             self.places.setdefault((subject, column.owner, column.quantity), place)
-            sheet.set_column(
-                index, index, 14, self.book.add_format({"num_format": number_format(column.values)})
-            )
+            sheet.set_column(index, index, 14, self.book.add_format({"num_format": number_format(column.values)}))
             for row, value in enumerate(column.values.tolist(), start=1):
                 if math.isfinite(value):
                     sheet.write_number(row, index, value)
@@ -251,8 +245,15 @@ def _model(results: Results, say: Callable[[Message], str]) -> Iterable[Sequence
 def _groups(results: Results) -> Iterable[Sequence[Cell]]:
     for number, group in enumerate(results.structure.groups, start=1):
         joints = ", ".join(dict.fromkeys(connection.joint for connection in group.joints))
-        yield (number, group.signature, ", ".join(group.links), group.assur_class, group.assur_order,
-               ", ".join(group.drivers), joints)  # fmt: skip
+        yield (
+            number,
+            group.signature,
+            ", ".join(group.links),
+            group.assur_class,
+            group.assur_order,
+            ", ".join(group.drivers),
+            joints,
+        )
 
 
 def _metrics(results: Results) -> Iterable[Sequence[Cell]]:
@@ -260,8 +261,7 @@ def _metrics(results: Results) -> Iterable[Sequence[Cell]]:
         data = row.data(results.language)
         label = METRICS[row.metric]().label_in(results.language, row.dimension)
         at = None if row.at is None else Amount(row.at)
-        yield (label, row.subject, Amount(row.value), row.unit, at, data["at_unit"] or "",
-               data["remark"])  # fmt: skip
+        yield (label, row.subject, Amount(row.value), row.unit, at, data["at_unit"] or "", data["remark"])
 
 
 FORMATS.register("xlsx")(Format((".xlsx",), content, of_result))

@@ -35,9 +35,7 @@ def written(root: ET.Element) -> bytes:
     for element in root.iter():
         for name, value in element.attrib.items():
             element.attrib[name] = printable(value)
-    return (
-        b'<?xml version="1.0" encoding="utf-8"?>\n' + ET.tostring(root, encoding="unicode").encode() + b"\n"
-    )
+    return b'<?xml version="1.0" encoding="utf-8"?>\n' + ET.tostring(root, encoding="unicode").encode() + b"\n"
 
 
 #: Mass and inertia of links without any, as a share of the largest mass.
@@ -112,15 +110,11 @@ class Bodies:
                 body.append(self._body(child, below))
         return body
 
-    def _placed(
-        self, name: str, base: tuple[float, float, float], pose: tuple[float, float, float]
-    ) -> ET.Element:
+    def _placed(self, name: str, base: tuple[float, float, float], pose: tuple[float, float, float]) -> ET.Element:
         c, s = math.cos(base[2]), math.sin(base[2])
         dx, dy, turn = pose[0] - base[0], pose[1] - base[1], pose[2] - base[2]
         place = numbers((c * dx + s * dy, c * dy - s * dx, 0.0))
-        return ET.Element(
-            "body", name=name, pos=place, quat=numbers((math.cos(turn / 2), 0, 0, math.sin(turn / 2)))
-        )
+        return ET.Element("body", name=name, pos=place, quat=numbers((math.cos(turn / 2), 0, 0, math.sin(turn / 2))))
 
     def _joint(self, body: ET.Element, step: TreeJoint) -> None:
         if not (step.turns or step.slides):
@@ -133,8 +127,13 @@ class Bodies:
             place, axis = link.centre, self._slide_axis(step)
         coordinate = self._coordinate(step)
         kind, value = "hinge" if pin else "slide", numbers([coordinate.value])
-        attributes = {"name": coordinate.name, "type": kind, "ref": value, "pos": numbers((*place, 0.0)),
-                      "axis": numbers(axis)}  # fmt: skip
+        attributes = {
+            "name": coordinate.name,
+            "type": kind,
+            "ref": value,
+            "pos": numbers((*place, 0.0)),
+            "axis": numbers(axis),
+        }
         if coordinate.driver is not None:
             attributes["armature"] = numbers([HEAVY * self.reflected[coordinate.driver]])
         ET.SubElement(body, "joint", attributes)
@@ -210,9 +209,7 @@ class Bodies:
             slide = self.motion.joint(cut.joint)
             found = Coordinate(cut.joint, slide.displacement[self.index], slide.velocity[self.index], None)
             axis = numbers((math.cos(joint.block_angle), math.sin(joint.block_angle), 0.0))
-            ET.SubElement(
-                rider, "joint", name=found.name, type="slide", axis=axis, ref=numbers([found.value])
-            )
+            ET.SubElement(rider, "joint", name=found.name, type="slide", axis=axis, ref=numbers([found.value]))
             _inertial(rider, (0.0, 0.0), self.least_mass, self.least_mass * self.size**2 / 12)
             self.coordinates.append(found)
             body.append(rider)
@@ -220,11 +217,7 @@ class Bodies:
 
 def _inertial(body: ET.Element, centre: tuple[float, float], mass: float, inertia: float) -> None:
     ET.SubElement(
-        body,
-        "inertial",
-        pos=numbers((*centre, 0.0)),
-        mass=numbers([mass]),
-        diaginertia=numbers([inertia] * 3),
+        body, "inertial", pos=numbers((*centre, 0.0)), mass=numbers([mass]), diaginertia=numbers([inertia] * 3)
     )
 
 

@@ -36,11 +36,7 @@ def actuators(results: Results, bodies: Bodies, step: float) -> ET.Element:
     for name, driver in results.mechanism.drivers.items():
         inertia = HEAVY * bodies.reflected[name]
         stiffness = inertia * (SERVO / step) ** 2
-        gains = {
-            "gainprm": numbers([stiffness]),
-            "biastype": "affine",
-            "biasprm": numbers([0.0, -stiffness, 0.0]),
-        }
+        gains = {"gainprm": numbers([stiffness]), "biastype": "affine", "biasprm": numbers([0.0, -stiffness, 0.0])}
         if driver.law.constant_speed is not None:
             gains["dyntype"] = "integrator"
         ET.SubElement(found, "general", {"name": name, "joint": bodies.joint_of[name], **gains})
@@ -71,9 +67,12 @@ def key(results: Results, bodies: Bodies, index: int) -> ET.Element:
         states += [position] if steady else []
         controls += [rate if steady else position, rate]
     frame = ET.Element("keyframe")
-    attributes = {"name": "start", "time": numbers([results.motion.time[index]]),
-                  "qpos": numbers(each.value for each in bodies.coordinates),
-                  "qvel": numbers(each.rate for each in bodies.coordinates)}  # fmt: skip
+    attributes = {
+        "name": "start",
+        "time": numbers([results.motion.time[index]]),
+        "qpos": numbers(each.value for each in bodies.coordinates),
+        "qvel": numbers(each.rate for each in bodies.coordinates),
+    }
     signals = {"act": states, "ctrl": controls}
     attributes |= {name: numbers(values) for name, values in signals.items() if values}
     ET.SubElement(frame, "key", attributes)

@@ -58,9 +58,7 @@ class Equations:
         self.text.unknowns.append(f'Real {name}(unit="{unit}", start={number(start)}) {quoted(meaning)};')
 
     def parameter(self, name: str, unit: str, value: float, meaning: str) -> str:
-        self.text.parameters.append(
-            f'parameter Real {name}(unit="{unit}") = {number(value)} {quoted(meaning)};'
-        )
+        self.text.parameters.append(f'parameter Real {name}(unit="{unit}") = {number(value)} {quoted(meaning)};')
         return name
 
     def _rates(self, name: str, of: str, units: tuple[str, str], meaning: str) -> None:
@@ -118,10 +116,7 @@ class Equations:
         if link == "frame":
             return a, b
         me = self.links[link]
-        return (
-            f"{me}_x + cos({me}_phi)*{a} - sin({me}_phi)*{b}",
-            f"{me}_y + sin({me}_phi)*{a} + cos({me}_phi)*{b}",
-        )
+        return (f"{me}_x + cos({me}_phi)*{a} - sin({me}_phi)*{b}", f"{me}_y + sin({me}_phi)*{a} + cos({me}_phi)*{b}")
 
     def angle(self, link: str) -> str:
         return "0.0" if link == "frame" else f"{self.links[link]}_phi"
@@ -129,15 +124,11 @@ class Equations:
     def _guide(self, joint: SlidingJoint) -> None:
         me = self.names.of("guide", joint.name)
         slide = self.motion.joint(joint.name)
-        self.unknown(
-            f"{me}_s", "m", slide.displacement[self.index], f"displacement of the block on {joint.name}"
-        )
+        self.unknown(f"{me}_s", "m", slide.displacement[self.index], f"displacement of the block on {joint.name}")
         self._rates(f"{me}_s", f"{me}_s", ("m/s", "m/s2"), f"the block on {joint.name}")
         turn = self.parameter(f"{me}_direction", "rad", joint.direction, f"direction of {joint.name}")
         offset = self.parameter(f"{me}_offset", "m", joint.offset, "normal distance, left positive")
-        block = self.parameter(
-            f"{me}_block_angle", "rad", joint.block_angle, "direction in the axes of the block"
-        )
+        block = self.parameter(f"{me}_block_angle", "rad", joint.block_angle, "direction in the axes of the block")
         along = f"({self.angle(joint.guide)} + {turn})"
         (bx, by), (gx, gy) = self.world(joint.block, joint.at), self.world(joint.guide, joint.through)
         self.text.equations += [
@@ -153,17 +144,14 @@ class Equations:
         """The sum of rotations and displacements that a higher pair keeps, less its value at the start."""
         rotations, slides, _ = joint.sums(self.mechanism)
         terms = [
-            (factor, self.angle(link), self.motion.link(link).angle[self.index])
-            for link, factor in rotations.items()
+            (factor, self.angle(link), self.motion.link(link).angle[self.index]) for link, factor in rotations.items()
         ]
         terms += [
             (factor, f"{self.names.of('guide', name)}_s", self.motion.joint(name).displacement[self.index])
             for name, factor in slides.items()
         ]
         start = sum(factor * float(value) for factor, _, value in terms)
-        return (
-            " + ".join(f"({number(factor)})*{name}" for factor, name, _ in terms) + f" + ({number(-start)})"
-        )
+        return " + ".join(f"({number(factor)})*{name}" for factor, name, _ in terms) + f" + ({number(-start)})"
 
     def _weld(self, joint: RigidJoint) -> None:
         a, b = joint.links
@@ -190,9 +178,7 @@ class Equations:
             return
         moved, base = (self.motion.link(link).angle[self.index] for link in (driver.link, driver.relative_to))
         against = "" if driver.relative_to == "frame" else f" - {self.angle(driver.relative_to)}"
-        self.text.equations.append(
-            f"{self.angle(driver.link)}{against} = {me}_q{turns(moved - base - start)};"
-        )
+        self.text.equations.append(f"{self.angle(driver.link)}{against} = {me}_q{turns(moved - base - start)};")
 
 
 def turns(angle: float) -> str:

@@ -63,11 +63,7 @@ def identifier(name: str) -> str:
 def law_text(law: Law, begin: float, end: float) -> str:
     """A law between two times, s, as an expression of ``time``, of operations that tools can differentiate."""
     raise LinkwrightError(
-        _(
-            "a driver with the law {law!r} cannot be written as Modelica text",
-            code="export.no_law",
-            law=law.key,
-        )
+        _("a driver with the law {law!r} cannot be written as Modelica text", code="export.no_law", law=law.key)
     )
 
 

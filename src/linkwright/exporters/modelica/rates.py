@@ -88,10 +88,7 @@ class Rates:
         slide = self.motion.joint(joint.name)
         self.model.unknown(f"{me}_s", "m", slide.displacement[self.index], f"displacement of {joint.name}")
         self.model.text.unknowns.append(f'Real {me}_s_w(unit="m/s") {quoted(f"velocity of {joint.name}")};')
-        (bx, by), (gx, gy) = (
-            self.model.world(joint.block, joint.at),
-            self.model.world(joint.guide, joint.through),
-        )
+        (bx, by), (gx, gy) = (self.model.world(joint.block, joint.at), self.model.world(joint.guide, joint.through))
         (bu, bv), (gu, gv) = self._velocity(joint.block, joint.at), self._velocity(joint.guide, joint.through)
         along = f"({self.model.angle(joint.guide)} + {turn})"
         c, s, w = f"cos{along}", f"sin{along}", self._spin(joint.guide)
@@ -121,9 +118,7 @@ class Rates:
     def _weld(self, joint: RigidJoint) -> None:
         a, b = joint.links
         here, there = self.model.world(a, joint.at), self.model.world(b, joint.at)
-        for p, q, u, v in zip(
-            here, there, self._velocity(a, joint.at), self._velocity(b, joint.at), strict=True
-        ):
+        for p, q, u, v in zip(here, there, self._velocity(a, joint.at), self._velocity(b, joint.at), strict=True):
             self._condition(f"{v} - {u}", f"{q} - ({p})")
         self._turning(b, a)
 

@@ -128,9 +128,7 @@ class SpreadMass:
             return Polynomial([0.0])
         degree = 2 if self.axis.straight else 3
         wanted = np.array([1.0, 0.0, 0.0, link.inertia / link.mass / self.axis.length**2])
-        rows = np.array(
-            [self._moments(Polynomial.basis(k, [a, b], [-1.0, 1.0])) for k in range(degree + 1)]
-        ).T
+        rows = np.array([self._moments(Polynomial.basis(k, [a, b], [-1.0, 1.0])) for k in range(degree + 1)]).T
         coefficients, *_ = np.linalg.lstsq(rows, wanted, rcond=1e-9)
         found = np.where(np.abs(coefficients) < 1e-9 * np.abs(coefficients).max(), 0.0, coefficients)
         return Polynomial(found * link.mass, [a, b], [-1.0, 1.0]).convert()
@@ -158,9 +156,7 @@ class SpreadMass:
         ends = np.clip(edges, *self.span)
         half, middle = 0.5 * np.diff(ends), 0.5 * (ends[1:] + ends[:-1])
         s = middle[:, None] + half[:, None] * nodes
-        around = (
-            self.axis.at(s.ravel(), np.repeat(pieces, len(nodes))).reshape(*s.shape, 2) - self.link.centre
-        )
+        around = self.axis.at(s.ravel(), np.repeat(pieces, len(nodes))).reshape(*s.shape, 2) - self.link.centre
         mass = density(s) * weights * half[:, None]
         parts = (
             mass.sum(axis=1),

@@ -24,21 +24,14 @@ def balance_laws(
     about = next(iter(supports.values())).x
     bearing = [(name, each) for name, each in own if each.deflection or not each.slope]
     forces = [(1.0, f"{name}.F") for name, _ in bearing]
-    moments = [
-        (each.x - about, f"{name}.F") for name, each in bearing if abs(each.x - about) > ROUNDING * length
-    ]
-    moments += [
-        (1.0, f"{name}.M")
-        for name, each in own
-        if each.slope or each.torsional_stiffness
-    ]  # fmt: skip
+    moments = [(each.x - about, f"{name}.F") for name, each in bearing if abs(each.x - about) > ROUNDING * length]
+    moments += [(1.0, f"{name}.M") for name, each in own if each.slope or each.torsional_stiffness]
     known = [p.force for p in points] + [(s.first + s.last) / 2 * (s.end - s.start) for s in spreads]
     turning = [p.couple + p.force * (p.x - about) for p in points]
     turning += [line_moment(s) - about * (s.first + s.last) / 2 * (s.end - s.start) for s in spreads]
     for name, unknown, parts in (("ΣF", forces, known), ("ΣM", moments, turning)):
         left = " ".join(
-            f"{'+' if c > 0 else '−'} {'' if abs(c) == 1.0 else f'{abs(c):.6g}·'}{each}"
-            for c, each in unknown
+            f"{'+' if c > 0 else '−'} {'' if abs(c) == 1.0 else f'{abs(c):.6g}·'}{each}" for c, each in unknown
         ).removeprefix("+ ")
         rest = signed(parts)
         rest = "" if rest == "0" else f" − {rest[1:]}" if rest[0] == "−" else f" + {rest}"

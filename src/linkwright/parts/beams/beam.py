@@ -65,26 +65,26 @@ class BeamSupport:
     at: float = file_key(Quantity("length", minimum=0.0, doc="its place"))
     settlement: float = file_key(Quantity("length", doc="given deflection, upwards positive"), 0.0)
     stiffness: float = file_key(Quantity("stiffness", minimum=0.0, doc="of a spring"), 0.0)
-    torsional_stiffness: float = file_key(
-        Quantity("torsional_stiffness", minimum=0.0, doc="of a spring"), 0.0
-    )
+    torsional_stiffness: float = file_key(Quantity("torsional_stiffness", minimum=0.0, doc="of a spring"), 0.0)
 
     @property
     def hold(self) -> SupportCondition:
         """What it holds."""
         return SupportCondition(
-            self.at, self.kind in ("fixed", "pinned", "roller"), self.kind in ("fixed", "guided"),
-            self.settlement, self.stiffness, self.torsional_stiffness,
-        )  # fmt: skip
+            self.at,
+            self.kind in ("fixed", "pinned", "roller"),
+            self.kind in ("fixed", "guided"),
+            self.settlement,
+            self.stiffness,
+            self.torsional_stiffness,
+        )
 
 
 @dataclass(frozen=True)
 class LineLoad(Quantities):
     """One value, or ``[first, last]``."""
 
-    def read(
-        self, reader: Any, node: Any, place: Any, siblings: Mapping[str, Any]
-    ) -> tuple[float, ...] | None:
+    def read(self, reader: Any, node: Any, place: Any, siblings: Mapping[str, Any]) -> tuple[float, ...] | None:
         from linkwright.fields.nodes import Sequence as SequenceNode
 
         if isinstance(node, SequenceNode):
@@ -105,13 +105,16 @@ class BeamLoad:
     """
 
     force: float | None = file_key(Quantity("force", doc="force, upwards positive, with at"), None)
-    couple: float | None = file_key(
-        Quantity("torque", doc="couple, counter-clockwise positive, with at"), None
+    couple: float | None = file_key(Quantity("torque", doc="couple, counter-clockwise positive, with at"), None)
+    line: tuple[float, ...] | None = file_key(
+        LineLoad(
+            "line_load",
+            count=2,
+            form="[0 N/m, -2 kN/m]",
+            doc="line load, upwards positive; [first, last] where it varies",
+        ),
+        None,
     )
-    line: tuple[float, ...] | None = file_key(LineLoad(
-        "line_load", count=2, form="[0 N/m, -2 kN/m]",
-        doc="line load, upwards positive; [first, last] where it varies",
-    ), None)  # fmt: skip
     at: float | None = file_key(Quantity("length", minimum=0.0, doc="where the force or couple acts"), None)
     start: float = file_key(
         Quantity("length", minimum=0.0, key="from", doc="where the line load begins; default: 0"), 0.0
@@ -146,10 +149,14 @@ class Beam(Problem):
     supports: Mapping[str, BeamSupport] = file_key(
         Named(Table.of(BeamSupport), _("support"), doc="supports by name: {kind: pinned, at: 0 m}")
     )
-    loads: Mapping[str, BeamLoad] = file_key(Named(
-        Table.of(BeamLoad), _("load"),
-        doc="by name: {force: -2 kN, at: 1 m}, {line: -1 kN/m, from: 0 m}, {couple: …}",
-    ), dict)  # fmt: skip
+    loads: Mapping[str, BeamLoad] = file_key(
+        Named(
+            Table.of(BeamLoad),
+            _("load"),
+            doc="by name: {force: -2 kN, at: 1 m}, {line: -1 kN/m, from: 0 m}, {couple: …}",
+        ),
+        dict,
+    )
     steps: tuple[SectionStep, ...] = file_key(
         Listed(Table.of(SectionStep), "[{from: 1 m, section: …}]", doc="other sections from places on"), ()
     )
@@ -228,7 +235,7 @@ class Beam(Problem):
                     _("the load is neither complete nor unique"),
                     _(
                         "write {{force: -2 kN, at: 1 m}}, {{couple: 900 N·m, at: 1 m}} or {{line: -1 kN/m, "
-                        "from: 0 m, to: 1 m}}",
+                        "from: 0 m, to: 1 m}}"
                     ),
                 )
             ]
@@ -262,16 +269,12 @@ class Beam(Problem):
         kinks = [x for x, kink in zip(sorted(self.hinges), motion[2:], strict=True) if abs(kink) > 1e-9]
         if kinks:
             return _(
-                "fold at the hinge at {places}",
-                code="beam.folds",
-                places=tuple(shown(x, "length") for x in kinks),
+                "fold at the hinge at {places}", code="beam.folds", places=tuple(shown(x, "length") for x in kinks)
             )
         if abs(motion[1]) < 1e-9:
             return _("move up and down", code="beam.shifts")
         return _(
-            "turn about x = {place}",
-            code="beam.turns",
-            place=shown(-motion[0] / motion[1] * self.length, "length"),
+            "turn about x = {place}", code="beam.turns", place=shown(-motion[0] / motion[1] * self.length, "length")
         )
 
     def _holds(self) -> list[SupportCondition]:
@@ -356,9 +359,7 @@ class BeamLine(Result):
             if section.modulus is None:
                 return None
             end = self.sections[i + 1][0] if i + 1 < len(self.sections) else self.beam.length
-            inside = [
-                s for s in self.line.segments if start - 1e-12 <= s.start and s.end <= end * (1 + 1e-12)
-            ]
+            inside = [s for s in self.line.segments if start - 1e-12 <= s.start and s.end <= end * (1 + 1e-12)]
             place, moment = _first_largest(ElasticLine(tuple(inside), ()).extremes("moment"))
             found.append((place, abs(moment) / section.modulus))
         return _first_largest(found)
@@ -367,19 +368,13 @@ class BeamLine(Result):
     def safety(self) -> float | None:
         """Strength over the largest stress; None where one of them is not known or there is no stress."""
         strength = self.beam.material.strength
-        return (
-            None if strength is None or not self.stress or not self.stress[1] else strength / self.stress[1]
-        )
+        return None if strength is None or not self.stress or not self.stress[1] else strength / self.stress[1]
 
     @property
     def needed_modulus(self) -> float | None:
         """Section modulus, m³, that the largest moment needs at the wanted safety (1 unless given)."""
         strength = self.beam.material.strength
-        return (
-            None
-            if strength is None
-            else abs(self.largest("moment")[1]) * (self.beam.safety or 1.0) / strength
-        )
+        return None if strength is None else abs(self.largest("moment")[1]) * (self.beam.safety or 1.0) / strength
 
     def columns(self) -> dict[str, Floats]:
         """x and the four quantities; places of jumps stand twice, left value first."""
@@ -438,13 +433,7 @@ class BeamLine(Result):
         rows = []
         if self.stress is not None:
             rows.append(
-                Row(
-                    "stress",
-                    self.stress[1],
-                    "pressure",
-                    "",
-                    _("at x = {x}", x=shown(self.stress[0], "length")),
-                )
+                Row("stress", self.stress[1], "pressure", "", _("at x = {x}", x=shown(self.stress[0], "length")))
             )
         if self.safety is not None:
             rows.append(Row("safety", self.safety))
@@ -466,9 +455,7 @@ class BeamLine(Result):
                 (
                     _("Equilibrium alone gives the reactions.")
                     if degree <= 0
-                    else _(
-                        "Statically indeterminate to degree {degree}: the stiffness decides with equilibrium."
-                    )
+                    else _("Statically indeterminate to degree {degree}: the stiffness decides with equilibrium.")
                 ).format(degree=degree)
             )
         )
@@ -484,8 +471,7 @@ class BeamLine(Result):
         forces += [(s.first + s.last) / 2 * (s.end - s.start) for s in spreads]
         step.put("ΣF", "", rounded(forces), "force", numbers=signed(forces, "force"))
         moments = [
-            c + f * s.at
-            for (f, c), s in zip(self.reactions.values(), self.beam.supports.values(), strict=True)
+            c + f * s.at for (f, c), s in zip(self.reactions.values(), self.beam.supports.values(), strict=True)
         ]
         moments += [p.couple + p.force * p.x for p in points]
         moments += [line_moment(s) for s in spreads]
@@ -495,13 +481,7 @@ class BeamLine(Result):
     def _segment_step(self, say: Translate) -> Step:
         """The polynomials of every segment."""
         step = Step(
-            "2",
-            say(
-                _(
-                    "Shear force, moment, slope and deflection, segment by segment (ξ from the segment's "
-                    "start)",
-                )
-            ),
+            "2", say(_("Shear force, moment, slope and deflection, segment by segment (ξ from the segment's start)"))
         )
         largest = {quantity: self._largest_coefficient(quantity) for quantity in QUANTITIES}
         for segment in self.line.segments:
@@ -515,8 +495,12 @@ class BeamLine(Result):
                     )
                 )
             )
-            for symbol, quantity, unit in (("V", "shear", "N"), ("M", "moment", "N·m"), ("θ", "slope", "rad"),
-                                           ("w", "deflection", "m")):  # fmt: skip
+            for symbol, quantity, unit in (
+                ("V", "shear", "N"),
+                ("M", "moment", "N·m"),
+                ("θ", "slope", "rad"),
+                ("w", "deflection", "m"),
+            ):
                 polynomial = getattr(segment, quantity).coef
                 text = polynomial_text(polynomial, largest[quantity], segment.end - segment.start)
                 step.law(f"{symbol}(ξ) = {text}", unit)

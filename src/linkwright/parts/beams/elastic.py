@@ -147,9 +147,7 @@ def solve_line(
     pieces = []
     for a, b in pairwise(nodes):
         stiffness = next(value for start, value in reversed(list(rigidity)) if start <= a + 1e-12 * length)
-        pieces.append(
-            (stiffness / unit, _load_on(a, b, spreads, length) * (length / force), (b - a) / length)
-        )
+        pieces.append((stiffness / unit, _load_on(a, b, spreads, length) * (length / force), (b - a) / length))
     dofs, count = _numbering(nodes, hinges, length)
     matrix, right = np.zeros((count, count)), np.zeros(count)
     for e, (stiffness, load, h) in enumerate(pieces):
@@ -172,15 +170,18 @@ def solve_line(
             held |= dict.fromkeys((dofs[i][1], dofs[i][2]), 0.0)
     moved = _solved(matrix, right, held)
     reactions = matrix @ moved - right
-    found = [
-        _reaction(hold, dofs[i], reactions, moved, force, length)
-        for hold, i in zip(holds, places, strict=True)
-    ]
+    found = [_reaction(hold, dofs[i], reactions, moved, force, length) for hold, i in zip(holds, places, strict=True)]
     segments = [
-        _segment(nodes[e], nodes[e + 1], piece, moved[[dofs[e][0], dofs[e][2], dofs[e + 1][0], dofs[e + 1][1]]],
-                 length, unit)
+        _segment(
+            nodes[e],
+            nodes[e + 1],
+            piece,
+            moved[[dofs[e][0], dofs[e][2], dofs[e + 1][0], dofs[e + 1][1]]],
+            length,
+            unit,
+        )
         for e, piece in enumerate(pieces)
-    ]  # fmt: skip
+    ]
     return ElasticLine(tuple(segments), tuple(found))
 
 
@@ -241,8 +242,12 @@ def _load_on(a: float, b: float, spreads: Sequence[DistributedLoad], length: flo
 def _element(stiffness: float, h: float) -> Floats:
     """Stiffness of a piece for w and slope at both ends."""
     k = stiffness / h**3
-    rows = [[12, 6 * h, -12, 6 * h], [6 * h, 4 * h * h, -6 * h, 2 * h * h],
-            [-12, -6 * h, 12, -6 * h], [6 * h, 2 * h * h, -6 * h, 4 * h * h]]  # fmt: skip
+    rows = [
+        [12, 6 * h, -12, 6 * h],
+        [6 * h, 4 * h * h, -6 * h, 2 * h * h],
+        [-12, -6 * h, 12, -6 * h],
+        [6 * h, 2 * h * h, -6 * h, 4 * h * h],
+    ]
     return k * np.array(rows)
 
 
@@ -277,6 +282,12 @@ def _segment(
     force = unit / length**2
     scale = Polynomial([0.0, 1.0 / length])
     return Segment(
-        a, b, stiffness * unit, load(scale) * (force / length), shear(scale) * force,
-        moment(scale) * (force * length), slope(scale), deflection(scale) * length,
-    )  # fmt: skip
+        a,
+        b,
+        stiffness * unit,
+        load(scale) * (force / length),
+        shear(scale) * force,
+        moment(scale) * (force * length),
+        slope(scale),
+        deflection(scale) * length,
+    )

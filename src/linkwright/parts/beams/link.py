@@ -73,8 +73,7 @@ class LinkBending(OfMechanism):
     )
     steps: int = file_key(Integer(1, doc="positions over the cycle; default: 360"), STEPS)
     axis: tuple[str, ...] = file_key(
-        Listed(Text(), "[A, B, C]", doc="points through which a bent link's axis runs; default: straight"),
-        (),
+        Listed(Text(), "[A, B, C]", doc="points through which a bent link's axis runs; default: straight"), ()
     )
     name: str = ""
     source: str = ""
@@ -152,9 +151,7 @@ class LinkBending(OfMechanism):
         """Names of points, and of the mass centre of a straight link with mass, that do not lie on the axis."""
         places = {**link.points, **({"mass_centre": link.centre} if link.mass and not self.axis else {})}
         gaps = self.link_axis.nearest(np.array(list(places.values())))[1]
-        return [
-            name for name, gap in zip(places, gaps, strict=True) if gap > STRAIGHT * self.link_axis.length
-        ]
+        return [name for name, gap in zip(places, gaps, strict=True) if gap > STRAIGHT * self.link_axis.length]
 
     def solve(self) -> LinkStress:
         """Stress over the cycle. Raises ModelError with all findings, and where the cycle is not passed."""
@@ -229,9 +226,7 @@ class LinkStress(Result):
 
     @cached_property
     def _laid_out(self) -> tuple[Floats, Indices]:
-        return self.axis.stations(
-            [float(s) for s in self.axis.nearest(np.array(list(self.link.points.values())))[0]]
-        )
+        return self.axis.stations([float(s) for s in self.axis.nearest(np.array(list(self.link.points.values())))[0]])
 
     @property
     def stations(self) -> Floats:
@@ -297,9 +292,7 @@ class LinkStress(Result):
         turned = self._turned(force)
         about = moment - cross(origin, force) + cross(np.array(own, dtype=float), turned)
         place, couple = self.axis.crossed(turned, about)
-        piece = np.clip(
-            np.searchsorted(self.axis.places, place, side="right") - 1, 0, len(self.axis.tangents) - 1
-        )
+        piece = np.clip(np.searchsorted(self.axis.places, place, side="right") - 1, 0, len(self.axis.tangents) - 1)
         return [PointForce("loads", place, turned, self.axis.at(place, piece), couple)]
 
     @cached_property
@@ -415,17 +408,13 @@ class LinkStress(Result):
         """What a largest value is of, (n, k)."""
         if key == "largest_deflection":
             return np.hypot(self.deflection[:, :, 0], self.deflection[:, :, 1])
-        return {"largest_moment": self.moment, "largest_normal": self.normal, "largest_stress": self.stress}[
-            key
-        ]
+        return {"largest_moment": self.moment, "largest_normal": self.normal, "largest_stress": self.stress}[key]
 
     @cached_property
     def peaks(self) -> Mapping[str, tuple[LinkStress, int, int]]:
         """The largest sizes over the cycle, found between the positions: the link there, position and station."""
         analysis = Analysis.of(self.forces)
-        found = {
-            key: (size := self._size(key), analysis.extreme(size, "max", of="forces")) for key in LARGEST
-        }
+        found = {key: (size := self._size(key), analysis.extreme(size, "max", of="forces")) for key in LARGEST}
         wanted = [(size, each.time, each.value) for size, each in found.values() if each and each.exact]
         if len(wanted) < len(found):
             return {key: (self, *self.worst(self.numbers(key))) for key in found}
@@ -452,9 +441,7 @@ class LinkStress(Result):
     def needed_modulus(self) -> float | None:
         """W (m³) with which the largest stress of bending alone keeps the wanted safety."""
         strength = self.problem.material.strength
-        return (
-            None if strength is None else abs(self.largest("largest_moment")) * self.problem.safety / strength
-        )
+        return None if strength is None else abs(self.largest("largest_moment")) * self.problem.safety / strength
 
     def columns(self) -> dict[str, Floats]:
         """Over the cycle: input, the largest moment and normal force by size, the largest stress and deflection."""
@@ -469,10 +456,7 @@ class LinkStress(Result):
     def blocks(self, say: Translate) -> list[Block]:
         rows = [self._row(key, say) for key in LARGEST if key != "largest_deflection"]
         if self.safety is not None and self.needed_modulus is not None:
-            rows += [
-                Row("safety", self.safety),
-                Row("needed_modulus", self.needed_modulus, "section_modulus"),
-            ]
+            rows += [Row("safety", self.safety), Row("needed_modulus", self.needed_modulus, "section_modulus")]
         rows.append(self._row("largest_deflection", say))
         rows.append(Row("closure", self.closure, "force", remainder=True))
         return [Block("cycle", _("Largest values over the cycle"), rows, self._remarks(say))]
@@ -537,18 +521,18 @@ class LinkStress(Result):
             where, (x, y) = shown(float(each.place[i]), "length"), each.force[i].tolist()
             values = f"({shown(x, 'force')}, {shown(y, 'force')})"
             step.say(f"{each.name}, s = {where}: {values}, {shown(float(each.couple[i]), 'torque')}")
-        cut = Step(
-            "2", say(_("Cut at s: the forces on the part below s balance V, M and N (inertia −ρ·a included)"))
-        )
+        cut = Step("2", say(_("Cut at s: the forces on the part below s balance V, M and N (inertia −ρ·a included)")))
         cut.put("s", "", float(self.stations[k]), "length")
         cut.put("V", "Σ F + ∫ q ds", float(there.shear[i, k]), "force")
         cut.put("M", "Σ F·(s − s_k) − Σ C + ∫∫ q ds²", float(there.moment[i, k]), "torque")
         cut.put("N", "−Σ F − ∫ p ds", float(there.normal[i, k]), "force")
         section, strength = self.problem.section, self.problem.material.strength or 0.0
         of = {
-            "N": (abs(float(there.normal[i, k])), "force"), "A": (section.area or 0.0, "section_area"),
-            "M": (abs(float(there.moment[i, k])), "torque"), "W": (section.modulus or 0.0, "section_modulus"),
-        }  # fmt: skip
+            "N": (abs(float(there.normal[i, k])), "force"),
+            "A": (section.area or 0.0, "section_area"),
+            "M": (abs(float(there.moment[i, k])), "torque"),
+            "W": (section.modulus or 0.0, "section_modulus"),
+        }
         cut.put("σ", "|N|/A + |M|/W", float(there.stress[i, k]), "pressure", of=of)
         if self.safety is not None and self.needed_modulus is not None:
             cut.put("S", "Re/σ", self.safety, of={"Re": (strength, "pressure")})

@@ -38,6 +38,10 @@ TABLE: Mapping[str, Material] = {
     )
 }
 MATERIAL = Known(
-    Text(), Table.of(Material), TABLE, _('there is no material "{name}"', code="beam.no_material"), required=True,
+    Text(),
+    Table.of(Material),
+    TABLE,
+    _('there is no material "{name}"', code="beam.no_material"),
+    required=True,
     doc=f"material: {', '.join(TABLE)}, or {{modulus: 210 GPa, strength: 235 MPa}}",
-)  # fmt: skip
+)

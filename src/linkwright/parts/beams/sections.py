@@ -47,9 +47,7 @@ def rectangle(width: float, height: float) -> Section:
 
 def circle(diameter: float) -> Section:
     """I = π d⁴/64, W = π d³/32."""
-    return Section(
-        math.pi * diameter**4 / 64, math.pi * diameter**2 / 4, math.pi * diameter**3 / 32, "circle"
-    )
+    return Section(math.pi * diameter**4 / 64, math.pi * diameter**2 / 4, math.pi * diameter**3 / 32, "circle")
 
 
 def tube(diameter: float, wall: float) -> Section:

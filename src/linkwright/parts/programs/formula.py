@@ -99,8 +99,7 @@ def constraint(
     sides = [formula(part, kinds, constants) for part in parts[::2]]
     for side in sides[1:]:
         zero = any(
-            s.dimension == units.NONE and not s.expression.names and s.text.strip() in ("0", "0.0")
-            for s in sides
+            s.dimension == units.NONE and not s.expression.names and s.text.strip() in ("0", "0.0") for s in sides
         )
         if side.dimension != sides[0].dimension and not zero:
             one, other = units.name_of(sides[0].dimension), units.name_of(side.dimension)
@@ -110,6 +109,4 @@ def constraint(
             )
     if len(parts) == 3:
         return [Constraint(name, sides[0], SENSES[parts[1]], sides[1])]
-    return [
-        Constraint(f"{name} ({i + 1})", sides[i], SENSES[parts[2 * i + 1]], sides[i + 1]) for i in range(2)
-    ]
+    return [Constraint(f"{name} ({i + 1})", sides[i], SENSES[parts[2 * i + 1]], sides[i + 1]) for i in range(2)]

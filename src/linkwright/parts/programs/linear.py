@@ -40,11 +40,16 @@ def linear_form(model: Model) -> LinearForm:
     scales = np.abs(rows).max(axis=1, initial=0.0)
     scales[scales == 0.0] = 1.0
     return LinearForm(
-        costs, constant, rows / scales[:, None], right / scales,
-        np.array([c.sense == "=" for c in model.constraints], dtype=bool), scales, sizes,
+        costs,
+        constant,
+        rows / scales[:, None],
+        right / scales,
+        np.array([c.sense == "=" for c in model.constraints], dtype=bool),
+        scales,
+        sizes,
         np.stack([model.lows / sizes, model.highs / sizes], axis=1),
         np.array([float(v.integer) for v in model.variables.values()]),
-    )  # fmt: skip
+    )
 
 
 @dataclass(frozen=True)
@@ -67,9 +72,14 @@ def _run(form: LinearForm, costs: Floats) -> Any:
         return milp(costs, constraints=limits, integrality=form.integral, bounds=_bounds(form))
     up, eq = ~form.equal, form.equal
     return linprog(
-        costs, form.rows[up] if up.any() else None, form.right[up] if up.any() else None,
-        form.rows[eq] if eq.any() else None, form.right[eq] if eq.any() else None, form.bounds, method="highs",
-    )  # fmt: skip
+        costs,
+        form.rows[up] if up.any() else None,
+        form.right[up] if up.any() else None,
+        form.rows[eq] if eq.any() else None,
+        form.right[eq] if eq.any() else None,
+        form.bounds,
+        method="highs",
+    )
 
 
 def _bounds(form: LinearForm) -> Any:
@@ -113,15 +123,17 @@ def runaway(model: Model) -> Floats:
     from scipy.optimize import linprog
 
     form = linear_form(model)
-    ends = [
-        (0.0 if np.isfinite(low) else -1.0, 0.0 if np.isfinite(high) else 1.0) for low, high in form.bounds
-    ]
+    ends = [(0.0 if np.isfinite(low) else -1.0, 0.0 if np.isfinite(high) else 1.0) for low, high in form.bounds]
     up, eq = ~form.equal, form.equal
     found = linprog(
         form.costs / _size(form.costs),
-        form.rows[up] if up.any() else None, np.zeros(int(up.sum())) if up.any() else None,
-        form.rows[eq] if eq.any() else None, np.zeros(int(eq.sum())) if eq.any() else None, ends, method="highs",
-    )  # fmt: skip
+        form.rows[up] if up.any() else None,
+        np.zeros(int(up.sum())) if up.any() else None,
+        form.rows[eq] if eq.any() else None,
+        np.zeros(int(eq.sum())) if eq.any() else None,
+        ends,
+        method="highs",
+    )
     return np.asarray(found.x) * form.sizes
 
 

@@ -36,9 +36,7 @@ class Scaled:
         self.model, self.sizes = model, model.sizes
         points = model.point(model.samples(32))
         self.unit = _typical(model.objective.value(points))
-        self.units = [
-            max(_typical(c.left.value(points)), _typical(c.right.value(points))) for c in model.constraints
-        ]
+        self.units = [max(_typical(c.left.value(points)), _typical(c.right.value(points))) for c in model.constraints]
 
     def point(self, y: Floats) -> dict[str, Floats]:
         """SI values by variable at one scaled point."""
@@ -57,17 +55,14 @@ class Scaled:
     def excess(self, y: Floats) -> Floats:
         """Scaled excesses of all constraints."""
         point = self.point(y)
-        found = [
-            float(c.excess(point)[0]) / u for c, u in zip(self.model.constraints, self.units, strict=True)
-        ]
+        found = [float(c.excess(point)[0]) / u for c, u in zip(self.model.constraints, self.units, strict=True)]
         return np.asarray(np.nan_to_num(np.array(found), nan=1e3, posinf=1e10, neginf=-1e10))
 
     def slopes(self, y: Floats) -> Floats:
         """Their derivatives, (constraints, variables)."""
         point = self.point(y)
         rows = [
-            c.slope(point)[:, 0] * self.sizes / u
-            for c, u in zip(self.model.constraints, self.units, strict=True)
+            c.slope(point)[:, 0] * self.sizes / u for c, u in zip(self.model.constraints, self.units, strict=True)
         ]
         return np.nan_to_num(np.array(rows).reshape(len(rows), len(self.sizes)), posinf=1e10, neginf=-1e10)
 
@@ -85,11 +80,13 @@ class Scaled:
         found = []
         for kind, chosen, sign in (("ineq", ~equal, -1.0), ("eq", equal, 1.0)):
             if chosen.any():
-                found.append({
-                    "type": kind,
-                    "fun": lambda y, k=chosen, s=sign: s * self.excess(y)[k],
-                    "jac": lambda y, k=chosen, s=sign: s * self.slopes(y)[k],
-                })  # fmt: skip
+                found.append(
+                    {
+                        "type": kind,
+                        "fun": lambda y, k=chosen, s=sign: s * self.excess(y)[k],
+                        "jac": lambda y, k=chosen, s=sign: s * self.slopes(y)[k],
+                    }
+                )
         return found
 
 
@@ -109,17 +106,21 @@ def solve_nonlinear(model: Model, starts: int = STARTS) -> Found | None:
     scaled = Scaled(model)
     low, high = model.lows / scaled.sizes, model.highs / scaled.sizes
     bounds = [
-        (a if math.isfinite(a) else None, b if math.isfinite(b) else None)
-        for a, b in zip(low, high, strict=True)
+        (a if math.isfinite(a) else None, b if math.isfinite(b) else None) for a, b in zip(low, high, strict=True)
     ]
     ends: list[tuple[float, Floats]] = []
     for start in model.samples(starts).T:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
             found = minimize(
-                scaled.value, np.clip(start / scaled.sizes, low, high), jac=scaled.slope, bounds=bounds,
-                method="SLSQP", constraints=scaled.constraints(), options={"maxiter": 300, "ftol": 1e-13},
-            )  # fmt: skip
+                scaled.value,
+                np.clip(start / scaled.sizes, low, high),
+                jac=scaled.slope,
+                bounds=bounds,
+                method="SLSQP",
+                constraints=scaled.constraints(),
+                options={"maxiter": 300, "ftol": 1e-13},
+            )
         y = np.clip(found.x, low, high)
         if np.isfinite(y).all() and scaled.violation(y) <= CONSTRAINT_TOLERANCE:
             ends.append((scaled.value(y), y))

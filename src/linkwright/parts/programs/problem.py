@@ -56,11 +56,7 @@ class Variable:
         """Its scale: the width of its bounds, else the size of its start or bound, else 1."""
         if math.isfinite(self.minimum) and math.isfinite(self.maximum):
             return (self.maximum - self.minimum) or abs(self.maximum) or 1.0
-        ends = [
-            abs(v)
-            for v in (self.start, self.minimum, self.maximum)
-            if v is not None and math.isfinite(v) and v
-        ]
+        ends = [abs(v) for v in (self.start, self.minimum, self.maximum) if v is not None and math.isfinite(v) and v]
         return max(ends, default=1.0)
 
 

@@ -50,7 +50,7 @@ WAYS = {
     "integer": _("Mixed-integer linear program (branch and cut): the optimum of all."),
     "nonlinear": _(
         "Nonlinear program (sequential quadratic programming): {agreed} of {starts} starts came "
-        "to this optimum; it is a local one, the best that was found.",
+        "to this optimum; it is a local one, the best that was found."
     ),
     "enumerated": _("All {count} combinations of the discrete values were tried: the optimum of all."),
     "branched": _("Mixed nonlinear program (branch and bound over local optima): the best that was found."),
@@ -132,10 +132,13 @@ class Program(Problem):
     """``minimize`` or ``maximize`` a formula of ``variables`` subject to constraints; :meth:`of` reads texts."""
 
     kind: ClassVar[str] = "program"
-    variables: Mapping[str, Variable] = file_key(Named(
-        Table(VARIABLE, _variable), _("variable"),
-        doc="variables by name: {from: 0 mm, to: 40 mm}, with integer: true or choices: […]",
-    ))  # fmt: skip
+    variables: Mapping[str, Variable] = file_key(
+        Named(
+            Table(VARIABLE, _variable),
+            _("variable"),
+            doc="variables by name: {from: 0 mm, to: 40 mm}, with integer: true or choices: […]",
+        )
+    )
     minimize: Formula | None = file_key(Objective(doc="what is to be small, an expression"), None)
     maximize: Formula | None = file_key(Objective(doc="or what is to be large"), None)
     subject_to: tuple[Constraint, ...] = file_key(Conditions(doc="constraints by name: 2*x + y <= 100"), ())
@@ -144,9 +147,15 @@ class Program(Problem):
 
     @classmethod
     def of(
-        cls, variables: Mapping[str, Variable], *, minimize: str = "", maximize: str = "",
-        subject_to: Mapping[str, str] | None = None, parameters: Mapping[str, str] | None = None, name: str = "",
-    ) -> Program:  # fmt: skip
+        cls,
+        variables: Mapping[str, Variable],
+        *,
+        minimize: str = "",
+        maximize: str = "",
+        subject_to: Mapping[str, str] | None = None,
+        parameters: Mapping[str, str] | None = None,
+        name: str = "",
+    ) -> Program:
         """A program from texts; ``parameters`` are quantities by name. Raises QuantityError."""
         kinds, values = dict[str, units.Dimension](), dict[str, float]()
         for key, text in (parameters or {}).items():
@@ -241,9 +250,7 @@ class Program(Problem):
         if found is None:
             raise self._no_solution(lambda m: solve_nonlinear(_aimless(m), 6) is not None, from_starts=True)
         if (np.abs(found.x) > AWAY * model.sizes).any():
-            far = tuple(
-                n for n, x, s in zip(self.variables, found.x, model.sizes, strict=True) if abs(x) > AWAY * s
-            )
+            far = tuple(n for n, x, s in zip(self.variables, found.x, model.sizes, strict=True) if abs(x) > AWAY * s)
             raise _unbounded(far)
         prices, gap = multipliers(model, found.x) if way == "nonlinear" else (None, 0.0)
         return Optimum(self, found.x, way, prices, agreed=(found.agreed, found.starts), gap=gap)
@@ -261,9 +268,7 @@ class Program(Problem):
             finding = fault(
                 "not_found",
                 key,
-                _(
-                    "no point was found that keeps all constraints; from no start did these hold together: {set}"
-                ),
+                _("no point was found that keeps all constraints; from no start did these hold together: {set}"),
                 _("loosen one of them, or give a start near a point that keeps them"),
                 set=texts,
             )
@@ -341,15 +346,19 @@ class Optimum(Result):
 
     def blocks(self, say: Translate) -> list[Block]:
         rows = [
-            Row(name, value, label=name, note=self._at_bound(name, say), scale=in_si(self._kind(name)),
-                text=in_kind(value, self._kind(name)))
+            Row(
+                name,
+                value,
+                label=name,
+                note=self._at_bound(name, say),
+                scale=in_si(self._kind(name)),
+                text=in_kind(value, self._kind(name)),
+            )
             for name, value in self.x.items()
-        ]  # fmt: skip
+        ]
         word = say(_("minimum") if self.program.minimize else _("maximum"))
         kind = self.program.model.objective.dimension
-        rows.append(
-            Row("objective", self.value, label=word, scale=in_si(kind), text=in_kind(self.value, kind))
-        )
+        rows.append(Row("objective", self.value, label=word, scale=in_si(kind), text=in_kind(self.value, kind)))
         found = [Block("optimum", _("Optimum"), rows, (self._method(say),))]
         limits = [self._limit_row(c, say) for c in self.program.subject_to]
         if limits:
@@ -376,10 +385,7 @@ class Optimum(Result):
         objective = self.program.model.objective.dimension
         price = self.prices.get(c.name)
         return {
-            **{
-                key: _measured(float(side.value(self.point)[0]), side.dimension)
-                for key, side in sides.items()
-            },
+            **{key: _measured(float(side.value(self.point)[0]), side.dimension) for key, side in sides.items()},
             "sense": c.sense,
             "slack": _measured(self.slack(c), _limit_kind(c)),
             "active": self.active(c),
@@ -399,18 +405,13 @@ class Optimum(Result):
 
     def _at_bound(self, name: str, say: Translate) -> str:
         variable, value = self.program.variables[name], self.x[name]
-        for bound, word in (
-            (variable.minimum, _("at its lower bound")),
-            (variable.maximum, _("at its upper bound")),
-        ):
+        for bound, word in ((variable.minimum, _("at its lower bound")), (variable.maximum, _("at its upper bound"))):
             if math.isfinite(bound) and abs(value - bound) <= ACTIVE * max(variable.size, abs(bound)):
                 return say(word)
         return ""
 
     def _limit_row(self, c: Constraint, say: Translate) -> Row:
-        left, right = (
-            in_kind(float(side.value(self.point)[0]), side.dimension, 5) for side in (c.left, c.right)
-        )
+        left, right = (in_kind(float(side.value(self.point)[0]), side.dimension, 5) for side in (c.left, c.right))
         state = (
             say(_("active"))
             if self.active(c)
@@ -432,17 +433,11 @@ class Optimum(Result):
                 gain = f"{abs(price) * size / factor:.6g} {own}".rstrip()
                 best = say(_("minimum") if self.program.minimize else _("maximum"))
                 effect = (
-                    _(
-                        "Raising the right side of {name} by {step} raises the {best} by {price} (shadow price)."
-                    )
+                    _("Raising the right side of {name} by {step} raises the {best} by {price} (shadow price).")
                     if price > 0
-                    else _(
-                        "Raising the right side of {name} by {step} lowers the {best} by {price} (shadow price)."
-                    )
+                    else _("Raising the right side of {name} by {step} lowers the {best} by {price} (shadow price).")
                 )
-                lines.append(
-                    say(effect.format(name=c.name, step=f"1 {unit}".rstrip(), best=best, price=gain))
-                )
+                lines.append(say(effect.format(name=c.name, step=f"1 {unit}".rstrip(), best=best, price=gain)))
         return tuple(lines)
 
     def _allowed(self, name: str, variable: Variable) -> str:
@@ -456,9 +451,7 @@ class Optimum(Result):
         if below and above:
             text = f"{shown(name, variable.low)} ≤ {name} ≤ {shown(name, variable.high)}"
         else:
-            text = (
-                f"{name} ≥ {shown(name, variable.low)}" if below else f"{name} ≤ {shown(name, variable.high)}"
-            )
+            text = f"{name} ≥ {shown(name, variable.low)}" if below else f"{name} ≤ {shown(name, variable.high)}"
         return f"{text} ∈ ℤ" if variable.integer else text
 
     @staticmethod
@@ -483,9 +476,7 @@ class Optimum(Result):
     def steps(self, say: Translate) -> list[Step]:
         task, found, test = (
             Step(str(i), say(title))
-            for i, title in enumerate(
-                (_("The program"), _("The optimum"), _("Constraints at the optimum")), 1
-            )
+            for i, title in enumerate((_("The program"), _("The optimum"), _("Constraints at the optimum")), 1)
         )
         objective = self.program.model.objective
         self._law(task, f"{'min' if self.program.minimize else 'max'} f = {objective.text}")
@@ -497,9 +488,7 @@ class Optimum(Result):
         for name, value in self.x.items():
             found.law(f"{name} = {measured(self.program.shown(name, value))}")
         values = {name: self.program.shown(name, value) for name, value in self.x.items()}
-        self._law(
-            found, f"f = {objective.text}", values=values, result=in_kind(self.value, objective.dimension)
-        )
+        self._law(found, f"f = {objective.text}", values=values, result=in_kind(self.value, objective.dimension))
         for c in self.program.subject_to:
             row = self._limit_row(c, say)
             test.say(f"{c.name}: {row.text}   {row.note}")

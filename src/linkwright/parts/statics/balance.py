@@ -66,10 +66,14 @@ def structure_balance(forces: Forces, index: int = 0) -> Balance | None:
         b[3 * k + 2] = -(moment - about[0] * force[1] + about[1] * force[0])
     rows = tuple(f"{link} {sum_}" for link in links for sum_ in ("ΣFx", "ΣFy", "ΣM"))
     return Balance(
-        tuple(each.name for each in unknowns), tuple(each.on[0][0] for each in unknowns), rows,
-        tuple(each.unit for each in unknowns), _tidy(a), _tidy(b),
+        tuple(each.name for each in unknowns),
+        tuple(each.on[0][0] for each in unknowns),
+        rows,
+        tuple(each.unit for each in unknowns),
+        _tidy(a),
+        _tidy(b),
         np.array([each.value for each in unknowns]),
-    )  # fmt: skip
+    )
 
 
 def _tidy(values: Floats) -> Floats:

@@ -161,9 +161,11 @@ class BeltTensions(Result):
 
     def blocks(self, say: Translate) -> list[Block]:
         rows = [
-            Row("tight", self.tight, "force"), Row("slack", self.slack, "force"), Row("pull", self.pull, "force"),
+            Row("tight", self.tight, "force"),
+            Row("slack", self.slack, "force"),
+            Row("pull", self.pull, "force"),
             Row("ratio", self.belt.ratio),
-        ]  # fmt: skip
+        ]
         if self.belt.radius:
             rows.append(Row("torque", self.pull * self.belt.radius, "torque"))
         if self.belt.speed:

@@ -35,9 +35,7 @@ HELD = ("x", "y", "z", "turn_x", "turn_y", "turn_z")
 class Couple(Components):
     """Three components, or the one about z."""
 
-    def read(
-        self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]
-    ) -> tuple[float, ...] | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> tuple[float, ...] | None:
         if isinstance(node, SequenceNode):
             return super().read(reader, node, place, siblings)
         value = reader.quantity(node, place, self.dimension)
@@ -80,17 +78,15 @@ class BodyLoad(Force):
     """A load on a body: a force, or a ``couple`` (N·m; in the plane one number, counter-clockwise)."""
 
     couple: tuple[float, ...] = file_key(
-        Couple(
-            "torque", doc="couple: M, counter-clockwise; [Mx, My, Mz] in space", form="[0 N·m, 0 N·m, 5 N·m]"
-        ),
-        (),
+        Couple("torque", doc="couple: M, counter-clockwise; [Mx, My, Mz] in space", form="[0 N·m, 0 N·m, 5 N·m]"), ()
     )
 
 
 LOADS = Named(
-    ForceField(Components("force", form="[0 N, -600 N]"), Table.of(BodyLoad)), _("load"),
+    ForceField(Components("force", form="[0 N, -600 N]"), Table.of(BodyLoad)),
+    _("load"),
     doc="loads by name: [Fx, Fy], {magnitude: …, direction: […], at: […]}, {couple: 5 N·m}",
-)  # fmt: skip
+)
 
 
 @dataclass(frozen=True)
@@ -101,13 +97,16 @@ class RigidBody(Problem):
     """
 
     kind: ClassVar[str] = "rigid_body"
-    fields = FileKeys({
-        "loads": LOADS, "forces": replace(FORCES, replaced="loads"), "couples": replace(COUPLES, replaced="loads"),
-    })  # fmt: skip
-    supports: Mapping[str, Support] = file_key(Named(
-        Table.of(Support), _("support"),
-        doc="supports by name: {at: [0 m, 0 m], holds: [x, y]}, or {at: […], direction: [0, 1]}",
-    ))  # fmt: skip
+    fields = FileKeys(
+        {"loads": LOADS, "forces": replace(FORCES, replaced="loads"), "couples": replace(COUPLES, replaced="loads")}
+    )
+    supports: Mapping[str, Support] = file_key(
+        Named(
+            Table.of(Support),
+            _("support"),
+            doc="supports by name: {at: [0 m, 0 m], holds: [x, y]}, or {at: […], direction: [0, 1]}",
+        )
+    )
     forces: Mapping[str, Force] = field(default_factory=dict)
     couples: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     name: str = ""
@@ -126,9 +125,7 @@ class RigidBody(Problem):
                 _("give one of force, magnitude with direction, couple"),
             )
             for name, each in loads.items()
-            if isinstance(each, BodyLoad)
-            and each.couple
-            and (each.force or each.size is not None or each.directed)
+            if isinstance(each, BodyLoad) and each.couple and (each.force or each.size is not None or each.directed)
         ]
         if wrong:
             raise ModelError(wrong)
@@ -209,11 +206,7 @@ class RigidBody(Problem):
                 )
                 if pushed
                 else fault(
-                    "loose",
-                    "supports",
-                    _("the body can {how}, though these forces do not start it"),
-                    remedy,
-                    how=how,
+                    "loose", "supports", _("the body can {how}, though these forces do not start it"), remedy, how=how
                 )
             )
         if not found and len(state.names) > state.rank:
@@ -250,9 +243,7 @@ class _Balance:
         ]
         self.names = [name for name, _unused in pairs]
         rows = [0, 1, 5] if body.planar else list(range(6))
-        self.columns = (
-            np.array([column for _unused, column in pairs]).T[rows] if pairs else np.zeros((len(rows), 0))
-        )
+        self.columns = np.array([column for _unused, column in pairs]).T[rows] if pairs else np.zeros((len(rows), 0))
         load = np.zeros(6)
         for each in body.forces.values():
             load += np.concatenate([each.vector, np.cross(each.place, each.vector) / self.scale])
@@ -331,8 +322,7 @@ class Reactions(Result):
                 if abs(c) > 1e-12
             ]
             sides = " ".join(
-                f"{'+' if c > 0 else '−'} {'' if abs(c) == 1.0 else number(abs(c)) + '·'}{n}"
-                for c, n in parts
+                f"{'+' if c > 0 else '−'} {'' if abs(c) == 1.0 else number(abs(c)) + '·'}{n}" for c, n in parts
             )
             load = state.load[i] * arm
             rest = "" if not load else f" {'+' if load > 0 else '−'} {number(abs(load))}"

@@ -30,7 +30,7 @@ from linkwright.parts.statics.forces import (
     Force,
     direction_angles,
     spatial,
-)  # fmt: skip
+)
 from linkwright.words import Message, Translate, _, pgettext
 
 #: Singular values, and sums that stay, below this share of the largest count as zero.
@@ -57,8 +57,7 @@ class ForceSystem(Problem):
     forces: Mapping[str, Force] = file_key(FORCES, dict)
     couples: Mapping[str, tuple[float, ...]] = file_key(COUPLES, dict)
     about: tuple[float, ...] = file_key(
-        Components("length", doc="point about which moments are taken; default: the origin"),
-        (0.0, 0.0, 0.0),
+        Components("length", doc="point about which moments are taken; default: the origin"), (0.0, 0.0, 0.0)
     )
     components: Mapping[str, Along] = file_key(LINES, dict)
     angles: Mapping[str, tuple[str, ...]] = file_key(PAIRS, dict)
@@ -74,12 +73,7 @@ class ForceSystem(Problem):
         found = [each for name, one in self.forces.items() for each in one.findings(f"forces.{name}")]
         if not self.forces and not self.couples:
             found.append(
-                fault(
-                    "no_forces",
-                    "forces",
-                    _("there is no force"),
-                    _("write forces: {{F1: [0 N, 40 N, 60 N]}}"),
-                )
+                fault("no_forces", "forces", _("there is no force"), _("write forces: {{F1: [0 N, 40 N, 60 N]}}"))
             )
         found += self._asked()
         if not found and self.unknowns:
@@ -210,9 +204,7 @@ class Resultant(Result):
         moment = [Row("M", m, "torque", f"M{axis}") for axis, m in zip("xyz", self.moment, strict=True)]
         blocks.append(Block("moment", _("Moment about the chosen point"), moment))
         if self.size:
-            place = [
-                Row("axis", p, "length", f"{axis}0") for axis, p in zip("xyz", self.axis_point, strict=True)
-            ]
+            place = [Row("axis", p, "length", f"{axis}0") for axis, p in zip("xyz", self.axis_point, strict=True)]
             wrench = [*place, Row("pitch", self.pitch, "length")]
             wrench.append(Row("couple", self.pitch * self.size, "torque"))
             blocks.append(Block("wrench", _("Wrench: force along an axis with a couple about it"), wrench))
@@ -259,9 +251,7 @@ class Resultant(Result):
 
     def _moment_step(self, step: Step, say: Translate) -> None:
         about = spatial(self.system.about)
-        step.say(
-            say(_("moments about the point ({place})", place=", ".join(f"{number(c)} m" for c in about)))
-        )
+        step.say(say(_("moments about the point ({place})", place=", ".join(f"{number(c)} m" for c in about))))
         parts = [np.cross(each.place - about, each.vector) for each in self.system.forces.values()]
         parts += [spatial(each) for each in self.system.couples.values()]
         formulas = ("Σ (y·Fz − z·Fy)", "Σ (z·Fx − x·Fz)", "Σ (x·Fy − y·Fx)")
@@ -303,9 +293,7 @@ def asked_blocks(
         along = float(vector @ line.way)
         rest = vector - along * line.way
         rows = [Row("along", along, "force"), Row("across", float(np.linalg.norm(rest)), "force")]
-        rows += [
-            Row("part", c, "force", f"{name}.{axis}") for axis, c in zip("xyz", along * line.way, strict=True)
-        ]
+        rows += [Row("part", c, "force", f"{name}.{axis}") for axis, c in zip("xyz", along * line.way, strict=True)]
         if np.any(vector):
             rows.append(Row("to_line", angle_between(vector, line.way), "angle"))
         found.append(Block(f"component {name}", _("Component of {of} along {name}", of=of, name=name), rows))
@@ -335,9 +323,7 @@ def asked_steps(
         along = float(vector @ line.way)
         step.put("F_along", f"{of}·e", along, "force", numbers=numbers)
         step.known[normal(of)] = (float(np.linalg.norm(vector)), "force")
-        step.put(
-            "F_across", f"√({of}² − F_along²)", float(np.linalg.norm(vector - along * line.way)), "force"
-        )
+        step.put("F_across", f"√({of}² − F_along²)", float(np.linalg.norm(vector - along * line.way)), "force")
         if np.any(vector):
             step.put("φ", f"arccos(F_along/{of})", angle_between(vector, line.way), "angle")
         found.append(step)
@@ -348,13 +334,12 @@ def asked_steps(
             str(count + len(found) + 1),
             say(_("Angle {name} between {first} and {second}", name=name, first=a, second=b)),
         )
-        step.law(
-            f"{a}·{b} = {dot_text(vectors[a], vectors[b])} = {number(float(vectors[a] @ vectors[b]))}", "N²"
-        )
+        step.law(f"{a}·{b} = {dot_text(vectors[a], vectors[b])} = {number(float(vectors[a] @ vectors[b]))}", "N²")
         sizes = "·".join(number(float(np.linalg.norm(vectors[each]))) for each in (a, b))
         numbers = f"arccos({number(float(vectors[a] @ vectors[b]))}/({sizes}))"
-        step.put("φ", f"arccos({a}·{b}/(|{a}|·|{b}|))", angle_between(vectors[a], vectors[b]), "angle",
-            numbers=numbers)  # fmt: skip
+        step.put(
+            "φ", f"arccos({a}·{b}/(|{a}|·|{b}|))", angle_between(vectors[a], vectors[b]), "angle", numbers=numbers
+        )
         found.append(step)
     return found
 
@@ -363,9 +348,7 @@ def dot_text(first: Floats, second: Floats) -> str:
     """A dot product with its numbers: ``3·0.6 + 4·0.8``."""
     parts = [(float(a), float(b)) for a, b in zip(first, second, strict=True) if a and b]
     texts = [f"{number(a)}·{number(b) if b > 0 else f'({number(b)})'}" for a, b in parts]
-    return (
-        " + ".join(f"({text})" if text.startswith("-") and k else text for k, text in enumerate(texts)) or "0"
-    )
+    return " + ".join(f"({text})" if text.startswith("-") and k else text for k, text in enumerate(texts)) or "0"
 
 
 def point_findings(system: ForceSystem) -> list[Finding]:
@@ -388,10 +371,7 @@ def point_findings(system: ForceSystem) -> list[Finding]:
             fault(
                 "point_unknown",
                 "forces",
-                _(
-                    "{count} unknown magnitudes ({names}) in {equations} independent equations of "
-                    "equilibrium",
-                ),
+                _("{count} unknown magnitudes ({names}) in {equations} independent equations of equilibrium"),
                 _("give some of the magnitudes, or directions that are not parallel or in one plane"),
                 count=len(names),
                 equations=rank,
@@ -444,9 +424,7 @@ class PointEquilibrium(Result):
         a, b, names = _matrix(self.system)
         found = np.linalg.lstsq(a, b, rcond=None)[0]
         largest = max(float(np.abs(found).max()), float(np.abs(b).max()))
-        return dict(
-            zip(names, np.where(np.abs(found) < SINGULAR * largest, 0.0, found).tolist(), strict=True)
-        )
+        return dict(zip(names, np.where(np.abs(found) < SINGULAR * largest, 0.0, found).tolist(), strict=True))
 
     @property
     def vectors(self) -> dict[str, Floats]:
@@ -460,9 +438,7 @@ class PointEquilibrium(Result):
     def blocks(self, say: Translate) -> list[Block]:
         rows = [Row(name, value, "force", name) for name, value in self.magnitudes.items()]
         remarks = [
-            _("{name} acts against its direction.", name=name)
-            for name, value in self.magnitudes.items()
-            if value < 0
+            _("{name} acts against its direction.", name=name) for name, value in self.magnitudes.items() if value < 0
         ]
         parts = [
             Row("component", float(c), "force", f"{name}.{axis}")
@@ -478,12 +454,7 @@ class PointEquilibrium(Result):
         directions, sums, solved = (
             Step(str(i), say(title))
             for i, title in enumerate(
-                (
-                    _("Directions and known forces"),
-                    _("Equilibrium of the point"),
-                    pgettext("statics", "Solution"),
-                ),
-                1,
+                (_("Directions and known forces"), _("Equilibrium of the point"), pgettext("statics", "Solution")), 1
             )
         )
         for name, each in self.system.forces.items():

@@ -47,9 +47,7 @@ class Components(Quantities):
 class Direction(Components):
     """A vector of any length, or in the plane its angle from the x-axis."""
 
-    def read(
-        self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]
-    ) -> tuple[float, ...] | None:
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> tuple[float, ...] | None:
         if isinstance(node, SequenceNode):
             return super().read(reader, node, place, siblings)
         angle = reader.quantity(node, place, "angle")
@@ -62,9 +60,12 @@ class Direction(Components):
 
 
 DIRECTION = Direction(
-    "dimensionless", key="direction", old="along", form="[2, 3, 6]",
+    "dimensionless",
+    key="direction",
+    old="along",
+    form="[2, 3, 6]",
     doc="direction: a vector of any length, or in the plane an angle from the x-axis",
-)  # fmt: skip
+)
 START = Components("length", key="from", doc="a point of the line of action, instead of a direction")
 END = Components("length", key="to", doc="the point of this line to which the force points")
 
@@ -91,11 +92,7 @@ class Line:
         """What is wrong with the direction."""
         found = [
             fault(
-                "components",
-                f"{key}.{word}",
-                _COMPONENTS,
-                _("give two (in the plane) or three"),
-                count=len(vector),
+                "components", f"{key}.{word}", _COMPONENTS, _("give two (in the plane) or three"), count=len(vector)
             )
             for word, vector in (("direction", self.along), ("from", self.start), ("to", self.end))
             if vector and len(vector) not in (2, 3)
@@ -112,23 +109,9 @@ class Line:
                 )
             ]
         if self.along and not any(self.along):
-            return [
-                fault(
-                    "no_direction",
-                    f"{key}.direction",
-                    _("the direction is zero"),
-                    _VECTOR,
-                )
-            ]
+            return [fault("no_direction", f"{key}.direction", _("the direction is zero"), _VECTOR)]
         if self.start and np.array_equal(spatial(self.start), spatial(self.end)):
-            return [
-                fault(
-                    "no_direction",
-                    f"{key}.to",
-                    _("the direction is zero"),
-                    _VECTOR,
-                )
-            ]
+            return [fault("no_direction", f"{key}.to", _("the direction is zero"), _VECTOR)]
         return []
 
 
@@ -142,8 +125,7 @@ class Force(Line):
 
     force: tuple[float, ...] = file_key(Components("force", doc="components"), ())
     size: float | None = file_key(
-        Quantity("force", key="magnitude", old="size", doc="magnitude, with direction; default: unknown"),
-        None,
+        Quantity("force", key="magnitude", old="size", doc="magnitude, with direction; default: unknown"), None
     )
     along: tuple[float, ...] = file_key(DIRECTION, ())
     at: tuple[float, ...] = file_key(
@@ -188,7 +170,7 @@ class Force(Line):
                     _("a force is neither complete nor unique"),
                     _(
                         "write its components [Fx, Fy, Fz], or magnitude and direction; direction alone "
-                        "where the magnitude is sought",
+                        "where the magnitude is sought"
                     ),
                 )
             )

@@ -58,14 +58,20 @@ class Rotor(Problem):
     """``masses`` off the axis of a rotor, balanced in one or two ``planes``; with a ``speed`` (rad/s) also forces."""
 
     kind: ClassVar[str] = "rotor"
-    masses: Mapping[str, HeavyPoint] = file_key(Named(
-        Table.of(HeavyPoint), _("mass"),
-        doc="masses by name: {mass: 10 kg, radius: 400 mm, angle: 120 deg, at: 0 mm}",
-    ))  # fmt: skip
-    planes: Mapping[str, BalancingPlane] = file_key(Named(
-        Table.of(BalancingPlane), _("plane"),
-        doc="one or two planes of counterweights by name: {at: 0 mm, radius: 500 mm}",
-    ))  # fmt: skip
+    masses: Mapping[str, HeavyPoint] = file_key(
+        Named(
+            Table.of(HeavyPoint),
+            _("mass"),
+            doc="masses by name: {mass: 10 kg, radius: 400 mm, angle: 120 deg, at: 0 mm}",
+        )
+    )
+    planes: Mapping[str, BalancingPlane] = file_key(
+        Named(
+            Table.of(BalancingPlane),
+            _("plane"),
+            doc="one or two planes of counterweights by name: {at: 0 mm, radius: 500 mm}",
+        )
+    )
     speed: float = file_key(Quantity("angular_velocity", minimum=0.0, doc="speed, for the forces"), 0.0)
     name: str = ""
     source: str = ""
@@ -155,10 +161,7 @@ class RotorBalance(Result):
         blocks = []
         for name, unbalance in self.unbalances.items():
             weight = self.counterweights[name]
-            rows = [
-                Row("unbalance", abs(unbalance), "mass_radius"),
-                Row("counterweight", abs(weight), "mass"),
-            ]
+            rows = [Row("unbalance", abs(unbalance), "mass_radius"), Row("counterweight", abs(weight), "mass")]
             if unbalance:
                 rows.insert(1, Row("direction", _angle(unbalance), "angle"))
                 rows.append(Row("seat", _angle(weight), "angle"))
@@ -188,7 +191,7 @@ class RotorBalance(Result):
                     say(
                         _(
                             "Every mass is replaced by parts in both planes; z is its place, z0 that of the "
-                            "plane, z' that of the other plane:",
+                            "plane, z' that of the other plane:"
                         )
                     )
                 )
@@ -196,14 +199,25 @@ class RotorBalance(Result):
             for mass, each in self.rotor.masses.items():
                 share = self.share(name, each.at) + 0.0  # no -0
                 step.known |= {"m": (each.mass, "mass"), "r": (each.radius, "length"), "k": share}
-                step.put(f"(m·r)_{mass}", "m·r·k" if len(self.unbalances) > 1 else "m·r",
-                    each.mass * each.radius * share, "mass_radius")  # fmt: skip
+                step.put(
+                    f"(m·r)_{mass}",
+                    "m·r·k" if len(self.unbalances) > 1 else "m·r",
+                    each.mass * each.radius * share,
+                    "mass_radius",
+                )
             shares = [each.product * self.share(name, each.at) for each in self.rotor.masses.values()]
-            for axis, of, parts in (("x", "cos", [each.real for each in shares]),
-                                    ("y", "sin", [each.imag for each in shares])):  # fmt: skip
+            for axis, of, parts in (
+                ("x", "cos", [each.real for each in shares]),
+                ("y", "sin", [each.imag for each in shares]),
+            ):
                 total = unbalance.real if axis == "x" else unbalance.imag
-                step.put(f"U{axis}", f"Σ m·r·{'k·' if len(self.unbalances) > 1 else ''}{of} θ", total,
-                    "mass_radius", numbers=signed(parts))  # fmt: skip
+                step.put(
+                    f"U{axis}",
+                    f"Σ m·r·{'k·' if len(self.unbalances) > 1 else ''}{of} θ",
+                    total,
+                    "mass_radius",
+                    numbers=signed(parts),
+                )
             step.put("U", "√(Ux² + Uy²)", abs(unbalance), "mass_radius")
             radius = self.rotor.planes[name].radius
             step.put("m_b", "U/r_b", abs(self.counterweights[name]), "mass", of={"r_b": (radius, "length")})

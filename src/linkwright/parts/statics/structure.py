@@ -162,12 +162,7 @@ def balance_step(balance: Balance | None, number: str, say: Translate) -> Step:
         return step
     links = dict.fromkeys(row.rpartition(" ")[0] for row in balance.rows)
     step.say(
-        say(
-            _(
-                "Rows: ΣFx, ΣFy and ΣM about the first joint of every link ({links}); N, m.",
-                links=", ".join(links),
-            )
-        )
+        say(_("Rows: ΣFx, ΣFy and ΣM about the first joint of every link ({links}); N, m.", links=", ".join(links)))
     )
     acting = ", ".join(f"{name} → {link}" for name, link in zip(balance.names, balance.on, strict=True))
     step.say(

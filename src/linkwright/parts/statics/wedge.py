@@ -36,9 +36,7 @@ class Wedge(Problem):
     kind: ClassVar[str] = "wedge"
     load: float = file_key(Quantity("force", above=0.0, doc="load to be raised"))
     angle: float = file_key(Quantity("angle", above=0.0, doc="angle of the wedge"))
-    friction: float = file_key(
-        Quantity("dimensionless", minimum=0.0, doc="coefficient of friction on the slope")
-    )
+    friction: float = file_key(Quantity("dimensionless", minimum=0.0, doc="coefficient of friction on the slope"))
     floor: float | None = file_key(
         Quantity("dimensionless", minimum=0.0, doc="on the floor; default: as on the slope"), None
     )
@@ -73,12 +71,7 @@ class Wedge(Problem):
     def findings(self) -> list[Finding]:
         if self.angle >= math.pi / 2:
             return [
-                fault(
-                    "wedge_angle",
-                    "angle",
-                    _("a wedge of 90° or more lifts nothing"),
-                    _("give an angle below 90°"),
-                )
+                fault("wedge_angle", "angle", _("a wedge of 90° or more lifts nothing"), _("give an angle below 90°"))
             ]
         slope, _unused, wall = self.friction_angles
         if self.angle + slope + wall >= math.pi / 2:
@@ -130,9 +123,7 @@ class WedgeForces(Result):
         """Push over the wedge's angle."""
         slope, _unused, wall = self.wedge.friction_angles
         angles = np.linspace(0.0, min(2 * self.wedge.angle, 0.98 * (math.pi / 2 - slope - wall)), 181)
-        wedges = [
-            Wedge(self.wedge.load, a, self.wedge.friction, self.wedge.floor, self.wedge.wall) for a in angles
-        ]
+        wedges = [Wedge(self.wedge.load, a, self.wedge.friction, self.wedge.floor, self.wedge.wall) for a in angles]
         return {
             "angle [rad]": angles,
             "raising [N]": np.array([each.push(1) for each in wedges]),
@@ -141,9 +132,10 @@ class WedgeForces(Result):
 
     def blocks(self, say: Translate) -> list[Block]:
         rows = [
-            Row("raising", self.raising, "force"), Row("lowering", self.lowering, "force"),
+            Row("raising", self.raising, "force"),
+            Row("lowering", self.lowering, "force"),
             Row("efficiency", self.efficiency),
-        ]  # fmt: skip
+        ]
         return [
             Block(
                 "wedge",

@@ -50,14 +50,7 @@ def described(values: Floats) -> Description:
     fourth = float((centred**4).mean() / second**2 - 3.0) if second else math.nan
     low, middle, high = np.quantile(values, [0.25, 0.5, 0.75]).tolist()
     return Description(
-        n,
-        float(values.mean()),
-        spread,
-        float(values.min()),
-        (low, middle, high),
-        float(values.max()),
-        third,
-        fourth,
+        n, float(values.mean()), spread, float(values.min()), (low, middle, high), float(values.max()), third, fourth
     )
 
 
@@ -234,6 +227,15 @@ def regression(y: Floats, columns: Floats, terms: tuple[str, ...], confidence: f
         t = coefficients / errors
     half = float(stats.t.ppf(0.5 + confidence / 2, freedom)) * errors
     return Regression(
-        terms, coefficients, errors, t, 2 * stats.t.sf(np.abs(t), freedom), coefficients - half, coefficients + half,
-        1.0 - float(left @ left) / total if total else 1.0, variance**0.5, freedom, columns @ coefficients,
-    )  # fmt: skip
+        terms,
+        coefficients,
+        errors,
+        t,
+        2 * stats.t.sf(np.abs(t), freedom),
+        coefficients - half,
+        coefficients + half,
+        1.0 - float(left @ left) / total if total else 1.0,
+        variance**0.5,
+        freedom,
+        columns @ coefficients,
+    )

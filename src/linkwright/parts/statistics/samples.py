@@ -145,9 +145,9 @@ class Samples(Problem):
     """Samples by name (SI with the unit in which they were given) and what is asked about them."""
 
     kind: ClassVar[str] = "statistics"
-    samples: Mapping[str, Numbers] = file_key(Named(
-        Sample(), _("sample"), doc="samples by name: {unit: mm, values: [20.1, 19.9]}, or [20.1 mm, 19.9 mm]",
-    ))  # fmt: skip
+    samples: Mapping[str, Numbers] = file_key(
+        Named(Sample(), _("sample"), doc="samples by name: {unit: mm, values: [20.1, 19.9]}, or [20.1 mm, 19.9 mm]")
+    )
     confidence: float = file_key(
         Quantity("dimensionless", above=0.0, doc="level of intervals and tests; default: 0.95"), 0.95
     )
@@ -155,21 +155,19 @@ class Samples(Problem):
         Listed(Word(tuple(DISTRIBUTIONS)), "[normal, weibull]", doc=f"any of {', '.join(DISTRIBUTIONS)}"), ()
     )
     tests: Mapping[str, TestSpec] = file_key(
-        Named(
-            Table(TEST_FIELDS, _asked), _("test"), doc="tests by name: {kind: mean, of: [a], value: 20 mm}"
-        ),
-        dict,
+        Named(Table(TEST_FIELDS, _asked), _("test"), doc="tests by name: {kind: mean, of: [a], value: 20 mm}"), dict
     )
     regressions: Mapping[str, Fitting] = file_key(
+        Named(Table.of(Fitting), _("regression"), doc="regressions by name: {y: force, on: [speed], degree: 2}"), dict
+    )
+    capability: Mapping[str, Limits] = file_key(
         Named(
-            Table.of(Fitting), _("regression"), doc="regressions by name: {y: force, on: [speed], degree: 2}"
+            Table(LIMIT_FIELDS, _limits),
+            _("sample"),
+            doc="limits by sample: {lower: 19.9 mm, upper: 20.1 mm, subgroup: 5}",
         ),
         dict,
     )
-    capability: Mapping[str, Limits] = file_key(Named(
-        Table(LIMIT_FIELDS, _limits), _("sample"),
-        doc="limits by sample: {lower: 19.9 mm, upper: 20.1 mm, subgroup: 5}",
-    ), dict)  # fmt: skip
     name: str = ""
     source: str = ""
 
@@ -231,14 +229,7 @@ class Samples(Problem):
                 )
             elif np.ptp(values) == 0.0:
                 found.append(
-                    fault(
-                        "constant",
-                        key,
-                        _CONSTANT,
-                        _("measure finer, or leave it out"),
-                        sample=name,
-                        what=what,
-                    )
+                    fault("constant", key, _CONSTANT, _("measure finer, or leave it out"), sample=name, what=what)
                 )
         return found
 
@@ -269,11 +260,7 @@ class Samples(Problem):
                 )
                 if test.kind in AGAINST
                 else fault(
-                    "value_useless",
-                    key,
-                    _("{what} compares with no value"),
-                    _("leave value out"),
-                    what=test.kind,
+                    "value_useless", key, _("{what} compares with no value"), _("leave value out"), what=test.kind
                 )
             )
         if found:
@@ -308,11 +295,7 @@ class Samples(Problem):
                     _("give a value above zero"),
                 )
             )
-        if (
-            test.kind == "paired"
-            and not found
-            and np.ptp(self.values(test.of[0]) - self.values(test.of[1])) == 0.0
-        ):
+        if test.kind == "paired" and not found and np.ptp(self.values(test.of[0]) - self.values(test.of[1])) == 0.0:
             found.append(
                 fault(
                     "constant",
@@ -452,9 +435,7 @@ class Statistics(Result):
     def fits(self) -> dict[str, list[Fit]]:
         """By sample, the best by Akaike's number first."""
         return {
-            name: sorted(
-                (fitted(self.problem.values(name), f) for f in self.problem.fit), key=lambda fit: fit.akaike
-            )
+            name: sorted((fitted(self.problem.values(name), f) for f in self.problem.fit), key=lambda fit: fit.akaike)
             for name in self.problem.samples
         }
 
@@ -476,9 +457,7 @@ class Statistics(Result):
     def capabilities(self) -> dict[str, Capability]:
         """By sample."""
         return {
-            name: capability(
-                self.problem.values(name), own.lower, own.upper, own.subgroup, self.problem.confidence
-            )
+            name: capability(self.problem.values(name), own.lower, own.upper, own.subgroup, self.problem.confidence)
             for name, own in self.problem.capability.items()
         }
 
@@ -575,14 +554,7 @@ class Statistics(Result):
         )
         return [
             Row(f"{name}.{outcome.symbol}", outcome.statistic, "", f"{name}: {outcome.symbol}{freedom}"),
-            Row(
-                f"{name}.p",
-                outcome.p,
-                "",
-                f"  {name}: p",
-                verdict,
-                text="" if outcome.p >= TINY else f"< {TINY:g}",
-            ),
+            Row(f"{name}.p", outcome.p, "", f"  {name}: p", verdict, text="" if outcome.p >= TINY else f"< {TINY:g}"),
         ]
 
     def _regressed(self, name: str, say: Translate) -> Block:
@@ -631,8 +603,7 @@ class Statistics(Result):
             found.append(step)
         for name, r in self.regressions.items():
             step = Step(
-                str(len(found) + 1),
-                say(_("Regression {name} of {y}", name=name, y=self.problem.regressions[name].y)),
+                str(len(found) + 1), say(_("Regression {name} of {y}", name=name, y=self.problem.regressions[name].y))
             )
             step.law("b = (Fᵀ·F)⁻¹·Fᵀ·y; s² = Σ e²/(n − p)")
             scales = self._scales(self.problem.regressions[name])

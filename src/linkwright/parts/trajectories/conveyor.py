@@ -208,9 +208,7 @@ class Transport(Result):
     def _largest(self, of: Callable[[Floats, Floats], Floats]) -> float:
         """The largest value over the cycle of what both accelerations give."""
         conveyor = self.conveyor
-        found = Analysis.of(conveyor.motion).extreme(
-            lambda motion: of(*conveyor.accelerations(motion)), "max"
-        )
+        found = Analysis.of(conveyor.motion).extreme(lambda motion: of(*conveyor.accelerations(motion)), "max")
         assert found is not None
         return found.value
 
@@ -231,15 +229,18 @@ class Transport(Result):
         ]
         if math.isfinite(self.needed_friction):
             rows.append(Row("needed_friction", self.needed_friction))
-        rows += [
-            Row(mode, share, label=MODE_NAMES[mode], scale=PERCENT) for mode, share in self.shares.items()
-        ]
+        rows += [Row(mode, share, label=MODE_NAMES[mode], scale=PERCENT) for mode, share in self.shares.items()]
         kind = self._input_kind
         phases = [
-            Row(f"{i}_{phase.mode}", self._input(phase.start), kind, f"{i} {say(MODE_NAMES[phase.mode])}",
-                end=self._input(phase.end))
+            Row(
+                f"{i}_{phase.mode}",
+                self._input(phase.start),
+                kind,
+                f"{i} {say(MODE_NAMES[phase.mode])}",
+                end=self._input(phase.end),
+            )
             for i, phase in enumerate(self.motion.phases, 1)
-        ]  # fmt: skip
+        ]
         remarks = (
             []
             if self.motion.repeats
@@ -281,19 +282,12 @@ class Transport(Result):
             law.put("μ_min", "max(|f|/n)", self.needed_friction)
         for phase in self.motion.phases[:24]:
             word = say(MODE_NAMES[phase.mode])
-            ends = " … ".join(
-                shown(self._input(time), self._input_kind, 5) for time in (phase.start, phase.end)
-            )
+            ends = " … ".join(shown(self._input(time), self._input_kind, 5) for time in (phase.start, phase.end))
             found.say(f"{ends}: {word}")
         found.put("Δs", "", self.motion.displacement, "length")
         found.put("v", "Δs/T", self.speed, "velocity", of={"T": (trough.period, "time")})
         if any(phase.mode == FLIGHT for phase in self.motion.phases):
             found.say(
-                say(
-                    _(
-                        "The load lands without bouncing; the blow of landing rubs as a force of its size "
-                        "would.",
-                    )
-                )
+                say(_("The load lands without bouncing; the blow of landing rubs as a force of its size would."))
             )
         return [law, found]

@@ -48,15 +48,17 @@ class Particle(Problem):
     """
 
     kind: ClassVar[str] = "trajectory"
-    fields = FileKeys({
-        "drag_coefficient": Quantity("dimensionless", minimum=0.0, doc="c_w, for k = ½ ρ c_w A"),
-        "area": Quantity("area", above=0.0, doc="cross section A"),
-        "density": Quantity("density", above=0.0, doc="density of the medium; default: air"),
-        "mechanism": Text(doc="model file of a mechanism that throws, in place of speed, angle and height"),
-        "point": Text(doc="the point of the mechanism that lets go, such as bucket.P"),
-        "at": Quantity("angle", doc="angle of the input at which it lets go"),
-        "ground": Quantity("length", doc="height of the ground in the mechanism's axes; default: 0"),
-    })  # fmt: skip
+    fields = FileKeys(
+        {
+            "drag_coefficient": Quantity("dimensionless", minimum=0.0, doc="c_w, for k = ½ ρ c_w A"),
+            "area": Quantity("area", above=0.0, doc="cross section A"),
+            "density": Quantity("density", above=0.0, doc="density of the medium; default: air"),
+            "mechanism": Text(doc="model file of a mechanism that throws, in place of speed, angle and height"),
+            "point": Text(doc="the point of the mechanism that lets go, such as bucket.P"),
+            "at": Quantity("angle", doc="angle of the input at which it lets go"),
+            "ground": Quantity("length", doc="height of the ground in the mechanism's axes; default: 0"),
+        }
+    )
     speed: float | None = file_key(Quantity("velocity", minimum=0.0, doc="speed at the start"), None)
     angle: float | None = file_key(Quantity("angle", doc="direction of the throw above the horizontal"), None)
     height: float = file_key(
@@ -77,11 +79,7 @@ class Particle(Problem):
         thrower = {key: own.pop(key, None) for key in ("mechanism", "point", "at", "ground")}
         found = []
         if any(v is not None for v in medium.values()):
-            if (
-                medium["drag_coefficient"] is None
-                or medium["area"] is None
-                or own.get("quadratic") is not None
-            ):
+            if medium["drag_coefficient"] is None or medium["area"] is None or own.get("quadratic") is not None:
                 found.append(
                     fault(
                         "drag_form",
@@ -91,9 +89,7 @@ class Particle(Problem):
                     )
                 )
             else:
-                own["quadratic"] = (
-                    0.5 * (medium["density"] or 1.225) * medium["drag_coefficient"] * medium["area"]
-                )
+                own["quadratic"] = 0.5 * (medium["density"] or 1.225) * medium["drag_coefficient"] * medium["area"]
         if (own.get("quadratic") or own.get("linear")) and own.get("mass") is None:
             found.append(
                 fault("mass_needed", "mass", _("drag acts on a mass, and there is none"), _("give the mass"))
@@ -160,9 +156,7 @@ class Particle(Problem):
                 )
             )
         if self.linear and self.quadratic:
-            found.append(
-                fault("one_drag", "linear", _("there are two kinds of drag"), _("give linear or quadratic"))
-            )
+            found.append(fault("one_drag", "linear", _("there are two kinds of drag"), _("give linear or quadratic")))
         return found
 
     def solve(self) -> Flight:
@@ -206,13 +200,17 @@ class Flight(Result):
             return np.asarray(self._integrated.sol(time))
         if p.linear:
             e, once, twice = _decayed(p.linear / p.mass * time)
-            return np.array([
-                p.start + u * time * once, p.height + time * (v * once - p.gravity * time * twice),
-                u * e, v * e - p.gravity * time * once,
-            ])  # fmt: skip
-        return np.array([
-            p.start + u * time, p.height + v * time - p.gravity * time**2 / 2, u + 0 * time, v - p.gravity * time,
-        ])  # fmt: skip
+            return np.array(
+                [
+                    p.start + u * time * once,
+                    p.height + time * (v * once - p.gravity * time * twice),
+                    u * e,
+                    v * e - p.gravity * time * once,
+                ]
+            )
+        return np.array(
+            [p.start + u * time, p.height + v * time - p.gravity * time**2 / 2, u + 0 * time, v - p.gravity * time]
+        )
 
     @cached_property
     def _integrated(self) -> Any:
@@ -305,35 +303,34 @@ class Flight(Result):
     def blocks(self, say: Translate) -> list[Block]:
         speed, angle = self.impact
         rows = [
-            Row("speed", self.particle.speed or 0.0, "velocity"), Row("angle", self.particle.angle or 0.0, "angle"),
-            Row("duration", self.duration, "time"), Row("distance", self.range, "distance"),
-            Row("top", self.top, "distance"), Row("impact_speed", speed, "velocity"),
+            Row("speed", self.particle.speed or 0.0, "velocity"),
+            Row("angle", self.particle.angle or 0.0, "angle"),
+            Row("duration", self.duration, "time"),
+            Row("distance", self.range, "distance"),
+            Row("top", self.top, "distance"),
+            Row("impact_speed", speed, "velocity"),
             Row("impact_angle", angle, "angle"),
-        ]  # fmt: skip
+        ]
         return [Block("flight", "", rows)]
 
     def steps(self, say: Translate) -> list[Step]:
         p, step = self.particle, Step("1", say(_("Equations of motion and their solution")))
         if p.quadratic:
             step.law("m·v̇_x = −k·v·v_x; m·v̇_y = −m·g − k·v·v_y; v = √(v_x² + v_y²)")
-            of = {
-                "m": (p.mass, "mass"), "g": (p.gravity, "acceleration"), "k": (p.quadratic, "linear_density"),
-            }  # fmt: skip
+            of = {"m": (p.mass, "mass"), "g": (p.gravity, "acceleration"), "k": (p.quadratic, "linear_density")}
             step.put("v∞", "√(m·g/k)", math.sqrt(p.mass * p.gravity / p.quadratic), "velocity", of=of)
         elif p.linear:
             step.law("m·v̇_x = −b·v_x; m·v̇_y = −m·g − b·v_y")
             step.law("x = v_x·τ·(1 − e^(−t/τ)); y = h + (v_y + g·τ)·τ·(1 − e^(−t/τ)) − g·τ·t")
-            step.put(
-                "τ",
-                "m/b",
-                p.mass / p.linear,
-                "time",
-                of={"m": (p.mass, "mass"), "b": (p.linear, "damping")},
-            )
+            step.put("τ", "m/b", p.mass / p.linear, "time", of={"m": (p.mass, "mass"), "b": (p.linear, "damping")})
         else:
             step.law("x = v_x·t; y = h + v_y·t − g·t²/2")
-        step.known |= {"v": (p.speed or 0.0, "velocity"), "α": (p.angle or 0.0, "angle"), "h": (p.height, "distance"),
-                       "g": (p.gravity, "acceleration")}  # fmt: skip
+        step.known |= {
+            "v": (p.speed or 0.0, "velocity"),
+            "α": (p.angle or 0.0, "angle"),
+            "h": (p.height, "distance"),
+            "g": (p.gravity, "acceleration"),
+        }
         step.put("v_x", "v·cos α", self.first[0], "velocity")
         step.put("v_y", "v·sin α", self.first[1], "velocity")
         free = not (p.linear or p.quadratic)

@@ -118,9 +118,7 @@ class _Load:
             time = min(self._time_to_sliding(left, f, normal, df, dn), self._lift(left, normal, dn))
             if time < left:
                 ends = f + df * time
-                self.mode = (
-                    FLIGHT if normal + dn * time <= TINY * abs(normal) else BACKWARD if ends > 0 else FORWARD
-                )
+                self.mode = FLIGHT if normal + dn * time <= TINY * abs(normal) else BACKWARD if ends > 0 else FORWARD
             return time
         if self.mode == FLIGHT:
             return self._fly(left, f, normal, df, dn)
@@ -193,10 +191,12 @@ def _landing(c: tuple[float, float, float, float], end: float) -> float:
         return math.inf
     roots = np.roots(c[::-1]) if any(c[1:]) else np.zeros(0)
     good = [
-        float(r.real) for r in roots
-        if abs(r.imag) <= 1e-9 * max(abs(r), end) and TINY * end < r.real < end
+        float(r.real)
+        for r in roots
+        if abs(r.imag) <= 1e-9 * max(abs(r), end)
+        and TINY * end < r.real < end
         and c[1] + r.real * (2 * c[2] + 3 * r.real * c[3]) <= 0
-    ]  # fmt: skip
+    ]
     return min(good, default=math.inf)
 
 
@@ -233,9 +233,14 @@ def transport(trough: Trough) -> Transported:
     span = 1 if repeats else min(AVERAGED, len(starts) - 1)
     table = np.array(record).T
     return Transported(
-        (starts[-1] - starts[-1 - span]) / span, tuple(phases), repeats,
-        table[0], table[1] - table[1, 0], table[2], table[3],
-    )  # fmt: skip
+        (starts[-1] - starts[-1 - span]) / span,
+        tuple(phases),
+        repeats,
+        table[0],
+        table[1] - table[1, 0],
+        table[2],
+        table[3],
+    )
 
 
 def _same(a: tuple[str, float, float, float], b: tuple[str, float, float, float], scale: float) -> bool:

@@ -41,13 +41,23 @@ def excitation_of(values: Mapping[str, Any]) -> Excitation:
 
 #: Dimensions of everything in straight and in turning motion.
 STRAIGHT = {
-    "mass": "mass", "stiffness": "stiffness", "damping": "damping", "force": "force", "base": "length",
-    "displacement": "length", "velocity": "velocity",
-}  # fmt: skip
+    "mass": "mass",
+    "stiffness": "stiffness",
+    "damping": "damping",
+    "force": "force",
+    "base": "length",
+    "displacement": "length",
+    "velocity": "velocity",
+}
 TURNING = {
-    "mass": "inertia", "stiffness": "torsional_stiffness", "damping": "torsional_damping", "force": "torque",
-    "base": "angle", "displacement": "angle", "velocity": "angular_velocity",
-}  # fmt: skip
+    "mass": "inertia",
+    "stiffness": "torsional_stiffness",
+    "damping": "torsional_damping",
+    "force": "torque",
+    "base": "angle",
+    "displacement": "angle",
+    "velocity": "angular_velocity",
+}
 
 
 def either(word: str) -> tuple[str, str]:
@@ -84,17 +94,12 @@ def sampled_force(excitation: Excitation | None, end: float, step: float) -> tup
     The force is zero before and after its table; a time at which it jumps is listed twice.
     """
     times, forces = (
-        np.array(each)
-        for each in ((excitation.times, excitation.forces) if excitation is not None else ((), ()))
+        np.array(each) for each in ((excitation.times, excitation.forces) if excitation is not None else ((), ()))
     )
     knots, values = [0.0], [0.0]
     for k in np.flatnonzero((times >= 0.0) & (times < end)):
         zero = [0.0] if forces[k] else []
-        sides = [
-            *(zero if k == 0 and times[k] > 0 else []),
-            forces[k],
-            *(zero if k == len(times) - 1 else []),
-        ]
+        sides = [*(zero if k == 0 and times[k] > 0 else []), forces[k], *(zero if k == len(times) - 1 else [])]
         knots += [times[k]] * len(sides)
         values += sides
     if len(times) and times[0] < 0.0:

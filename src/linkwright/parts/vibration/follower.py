@@ -81,9 +81,7 @@ class FollowerSpring(Problem):
     lift: float = file_key(Quantity("length", above=0.0, doc="lift of the rise"))
     rise_time: float = file_key(Quantity("time", above=0.0, doc="time of the rise"))
     law: MotionLaw | str = file_key(LawOrExpression(doc="a motion law, or an expression of u from 0 to 1"))
-    damping_ratio: float = file_key(
-        Quantity("dimensionless", minimum=0.0, doc="damping ratio ζ; default: 0"), 0.0
-    )
+    damping_ratio: float = file_key(Quantity("dimensionless", minimum=0.0, doc="damping ratio ζ; default: 0"), 0.0)
     name: str = ""
     source: str = ""
 
@@ -197,8 +195,7 @@ class FollowerVibration(Result):
         count = 8 * POINTS * min(max(1.0, self.ratio / 100), 30.0)
         after = max(1.0, 1.0 / self.ratio)
         pieces = [
-            np.linspace(a, b, max(2, math.ceil(count * (b - a))))
-            for a, b in pairwise([0.0, *own.motion.breaks, 1.0])
+            np.linspace(a, b, max(2, math.ceil(count * (b - a)))) for a, b in pairwise([0.0, *own.motion.breaks, 1.0])
         ]
         later = np.linspace(1.0, 1.0 + after, math.ceil(count))
         u = np.concatenate([*pieces, later])

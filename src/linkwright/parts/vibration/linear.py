@@ -62,15 +62,11 @@ class Linear:
 
         largest = np.abs(self.poles).max()
         swinging = self.poles[self.poles.imag > 1e-9 * largest]
-        real = np.sort(
-            -self.poles.real[(self.poles.imag <= 1e-9 * largest) & (np.abs(self.poles) > 1e-9 * largest)]
-        )
+        real = np.sort(-self.poles.real[(self.poles.imag <= 1e-9 * largest) & (np.abs(self.poles) > 1e-9 * largest)])
         real = real[len(real) % 2 :]
         slow, fast = real[: len(real) // 2], real[len(real) // 2 :][::-1]
         sizes = np.concatenate([np.abs(swinging), np.sqrt(slow * fast)])
-        ratios = np.concatenate(
-            [-swinging.real / np.abs(swinging), (slow + fast) / (2 * np.sqrt(slow * fast))]
-        )
+        ratios = np.concatenate([-swinging.real / np.abs(swinging), (slow + fast) / (2 * np.sqrt(slow * fast))])
         modes, places = linear_sum_assignment(np.abs(np.log(sizes[None, :] / frequency[:, None])))
         found = np.zeros(len(frequency))
         found[modes] = ratios[places]
@@ -91,12 +87,7 @@ class Linear:
         return np.asarray(np.linalg.solve(dynamic, right[..., None])[..., 0])
 
     def in_time(
-        self,
-        time: Floats,
-        force: Floats,
-        start: Floats,
-        rate: Floats,
-        blows: Mapping[int, Floats] | None = None,
+        self, time: Floats, force: Floats, start: Floats, rate: Floats, blows: Mapping[int, Floats] | None = None
     ) -> tuple[Floats, Floats]:
         """Displacements and rates (t, n) at times (t,) under forces (t, n) that are linear between them: exact.
 

@@ -44,11 +44,7 @@ TITLES = {
 #: Harmonics below this share of the largest are not listed.
 SMALL = 1e-3
 #: Ways of a machine, and what is largest over the cycle: along an axis, and of its turning.
-WAYS = {
-    "x": pgettext("vibration", "x"),
-    "y": pgettext("vibration", "y"),
-    "turn": _("turning"),
-}
+WAYS = {"x": pgettext("vibration", "x"), "y": pgettext("vibration", "y"), "turn": _("turning")}
 LARGEST = {
     "shaking": (_("shaking force along {axis}"), _("shaking moment about the mass centre")),
     "machine": (_("motion of the machine along {axis}"), _("turning of the machine")),
@@ -83,20 +79,25 @@ class Mounts(OfMechanism):
     stiffness_y: float | None = file_key(
         Quantity("stiffness", above=0.0, doc="of all mounts along y, where the machine does not rock"), None
     )
-    damping_ratio: float = file_key(
-        Quantity("dimensionless", minimum=0.0, doc="damping ratio ζ; default: 0"), 0.0
-    )
+    damping_ratio: float = file_key(Quantity("dimensionless", minimum=0.0, doc="damping ratio ζ; default: 0"), 0.0)
     steps: int = file_key(Integer(8, doc="positions over the cycle; default: 360"), STEPS)
-    mounts: Mapping[str, Mount] = file_key(Named(
-        Table.of(Mount), _("mount"),
-        doc="every mount by name: {at: [0 m, 0 m], stiffness_x: 1 MN/m, stiffness_y: 2 MN/m}",
-    ), dict)  # fmt: skip
+    mounts: Mapping[str, Mount] = file_key(
+        Named(
+            Table.of(Mount),
+            _("mount"),
+            doc="every mount by name: {at: [0 m, 0 m], stiffness_x: 1 MN/m, stiffness_y: 2 MN/m}",
+        ),
+        dict,
+    )
     inertia: float | None = file_key(
         Quantity("inertia", above=0.0, doc="of the complete machine about its mass centre"), None
     )
-    mass_centre: tuple[float, float] | None = file_key(Quantities(
-        "length", ("x", "y"), doc="of the complete machine, in the axes of the frame", form="[0.4 m, 0.3 m]",
-    ), None)  # fmt: skip
+    mass_centre: tuple[float, float] | None = file_key(
+        Quantities(
+            "length", ("x", "y"), doc="of the complete machine, in the axes of the frame", form="[0.4 m, 0.3 m]"
+        ),
+        None,
+    )
     name: str = ""
     source: str = ""
 
@@ -215,7 +216,7 @@ class Mounts(OfMechanism):
                                 "mass",
                                 _(
                                     "resonance: the excitation has the natural frequency {hertz} Hz, and nothing "
-                                    "damps it; the amplitude grows without end",
+                                    "damps it; the amplitude grows without end"
                                 ),
                                 _("change the frequency or a stiffness, or give damping"),
                                 hertz=own / (2 * math.pi),
@@ -303,9 +304,7 @@ class Shaken(Result):
     def moved(self) -> Complexes:
         """Amplitudes of the motion of the machine's mass centre, m, and of its turning, rad, as ``harmonics``."""
         w = self.orders[:, None, None]
-        dynamic_stiffness = (
-            self.problem.stiffness - np.diag(self.problem.inertias) * w**2 + 1j * w * self._damping
-        )
+        dynamic_stiffness = self.problem.stiffness - np.diag(self.problem.inertias) * w**2 + 1j * w * self._damping
         return np.asarray(np.linalg.solve(dynamic_stiffness, self.harmonics[:, :, None])[:, :, 0])
 
     @property
@@ -341,8 +340,10 @@ class Shaken(Result):
         """Natural frequencies; of a machine that rocks with what moves most, over the radius of gyration."""
         hertz = self.frequencies / (2 * math.pi)
         if not self.problem.mounts:
-            return [Row(f"own_{axis}", hertz[i], "frequency", _("natural frequency along {axis}", axis=axis))
-                    for i, axis in enumerate(self.axes)]  # fmt: skip
+            return [
+                Row(f"own_{axis}", hertz[i], "frequency", _("natural frequency along {axis}", axis=axis))
+                for i, axis in enumerate(self.axes)
+            ]
         sizes = np.abs(self.modes) * np.sqrt(self.problem.inertias)[:, None]
         most = [self.axes[int(k)] for k in sizes.argmax(axis=0)]
         return [
@@ -350,11 +351,7 @@ class Shaken(Result):
                 f"own_{k}",
                 hertz[k],
                 "frequency",
-                _(
-                    "natural frequency, mode {mode} (mostly {axis})",
-                    mode=k + 1,
-                    axis=WAYS[most[k]],
-                ),
+                _("natural frequency, mode {mode} (mostly {axis})", mode=k + 1, axis=WAYS[most[k]]),
             )
             for k in range(len(hertz))
         ]
@@ -374,18 +371,10 @@ class Shaken(Result):
             for i, axis in enumerate(self.axes):
                 (_unused2, kind), (_unused3, way), _unused4 = TITLES[axis]
                 hertz = number(float(self.orders[k]) / (2 * math.pi))
-                label = _(
-                    "k = {order} ({hertz} Hz) {axis}",
-                    order=k,
-                    axis=WAYS[axis],
-                    hertz=hertz,
-                )
+                label = _("k = {order} ({hertz} Hz) {axis}", order=k, axis=WAYS[axis], hertz=hertz)
                 note = f"→ {shown(float(abs(self.moved[k, i])), way)}, {shown(float(abs(self.passed[k, i])), kind)}"
                 listed.append(Row(f"force_{k}_{axis}", float(abs(self.harmonics[k, i])), kind, label, note))
-        return [
-            *found,
-            Block("harmonics", _("Harmonics: shaking force → motion, force on the ground"), listed),
-        ]
+        return [*found, Block("harmonics", _("Harmonics: shaking force → motion, force on the ground"), listed)]
 
     def listed(self) -> list[int]:
         """Harmonics that matter, k from 1."""
@@ -408,8 +397,7 @@ class Shaken(Result):
             own.put(f"ω{way}", formula, float(self.frequencies[i]), "angular_velocity", of=of)
         for i, way in enumerate(ways):
             speeds = ", ".join(
-                number(60 * float(self.frequencies[i]) / (2 * math.pi) / k, digits=4)
-                for k in self.listed()[:4]
+                number(60 * float(self.frequencies[i]) / (2 * math.pi) / k, digits=4) for k in self.listed()[:4]
             )
             own.say(
                 say(

@@ -77,15 +77,12 @@ TIE = {"between": Listed(Text(), "[ground, body]", required=True, doc="two masse
 SPRING = Table(
     {
         **TIE,
-        "rate": AnyQuantity(
-            either("stiffness"), required=True, key="stiffness", doc="N/m, or N·m/rad of a shaft"
-        ),
+        "rate": AnyQuantity(either("stiffness"), required=True, key="stiffness", doc="N/m, or N·m/rad of a shaft"),
     },
     _tie,
 )
 DAMPER = Table(
-    {**TIE, "rate": AnyQuantity(either("damping"), required=True, key="damping", doc="N·s/m, or N·m·s/rad")},
-    _tie,
+    {**TIE, "rate": AnyQuantity(either("damping"), required=True, key="damping", doc="N·s/m, or N·m·s/rad")}, _tie
 )
 START = {
     "displacement": AnyQuantity(either("displacement"), doc="at the time zero, m or rad"),
@@ -112,14 +109,22 @@ class VibratingSystem(Problem):
     """
 
     kind: ClassVar[str] = "vibration"
-    fields = FileKeys({
-        "absorber": Table({
-            "on": Text(required=True, doc="the mass that is to be quieted"),
-            "mass": Quantity("mass", required=True, above=0.0, doc="mass of the absorber"),
-        }, doc="adds the best damped absorber: {on: body, mass: 5 kg}"),
-        "inertias": Named(AnyQuantity(("inertia",)), _("disc"), doc="discs on shafts, in place of masses: moments of "
-                          "inertia (kg·m²) by name"),
-    })  # fmt: skip
+    fields = FileKeys(
+        {
+            "absorber": Table(
+                {
+                    "on": Text(required=True, doc="the mass that is to be quieted"),
+                    "mass": Quantity("mass", required=True, above=0.0, doc="mass of the absorber"),
+                },
+                doc="adds the best damped absorber: {on: body, mass: 5 kg}",
+            ),
+            "inertias": Named(
+                AnyQuantity(("inertia",)),
+                _("disc"),
+                doc="discs on shafts, in place of masses: moments of inertia (kg·m²) by name",
+            ),
+        }
+    )
     masses: Mapping[str, float] = file_key(
         MassesField(AnyQuantity(either("mass")), _("mass"), doc="masses (kg) by name"), dict
     )
@@ -135,9 +140,7 @@ class VibratingSystem(Problem):
     start: Mapping[str, Start] = file_key(
         Named(Table(START), _("mass"), doc="start of the free vibration by mass"), dict
     )
-    duration: float | None = file_key(
-        Quantity("time", above=0.0, doc="how long responses in time are shown"), None
-    )
+    duration: float | None = file_key(Quantity("time", above=0.0, doc="how long responses in time are shown"), None)
     turning: bool = False
     name: str = ""
     source: str = ""
@@ -157,8 +160,7 @@ class VibratingSystem(Problem):
             data[what] = {name: Connector(tie["between"], tie["rate"][0]) for name, tie in ties.items()}
         starts = data.get("start", {})
         data["start"] = {
-            name: Start(**{word: value for word, (value, _unused) in each.items()})
-            for name, each in starts.items()
+            name: Start(**{word: value for word, (value, _unused) in each.items()}) for name, each in starts.items()
         }
         if data.get("excitation") is not None:
             data["excitation"] = excitation_of(data["excitation"])
@@ -250,12 +252,7 @@ class VibratingSystem(Problem):
         return (
             [
                 *found,
-                fault(
-                    "rate_negative",
-                    key,
-                    _("a negative stiffness or damping"),
-                    _("give a value of zero or more"),
-                ),
+                fault("rate_negative", key, _("a negative stiffness or damping"), _("give a value of zero or more")),
             ]
             if tie.rate < 0
             else found
@@ -320,7 +317,7 @@ class VibratingSystem(Problem):
                         "excitation",
                         _(
                             "resonance: the excitation has the natural frequency {hertz} Hz, and nothing damps "
-                            "it; the amplitude grows without end",
+                            "it; the amplitude grows without end"
                         ),
                         _("change the frequency or a stiffness, or give damping"),
                         hertz=own / (2 * math.pi),
@@ -331,9 +328,7 @@ class VibratingSystem(Problem):
     @cached_property
     def linear(self) -> Linear:
         """The matrices, masses in their order."""
-        return Linear(
-            np.diag(list(self.masses.values())), self._matrix(self.dampers), self._matrix(self.springs)
-        )
+        return Linear(np.diag(list(self.masses.values())), self._matrix(self.dampers), self._matrix(self.springs))
 
     def _matrix(self, ties: Mapping[str, Connector]) -> Floats:
         place = {name: i for i, name in enumerate(self.masses)}
@@ -365,9 +360,7 @@ class VibratingSystem(Problem):
 def _mixed(data: Mapping[str, Any], where: Mapping[str, str], turning: bool) -> list[Finding]:
     """Findings where straight and turning motion, or wrong units, come together."""
     kinds = TURNING if turning else STRAIGHT
-    values = {
-        f"{where.get(n, 'masses')}.{n}": (kind, "mass") for n, (_unused, kind) in data["masses"].items()
-    }
+    values = {f"{where.get(n, 'masses')}.{n}": (kind, "mass") for n, (_unused, kind) in data["masses"].items()}
     for what, key in (("springs", "stiffness"), ("dampers", "damping")):
         values |= {f"{what}.{n}.{key}": (t["rate"][1], key) for n, t in data.get(what, {}).items()}
     for name, start in data.get("start", {}).items():
@@ -380,10 +373,7 @@ def _mixed(data: Mapping[str, Any], where: Mapping[str, str], turning: bool) -> 
         fault(
             "mixed",
             key,
-            _(
-                "straight and turning motion, or units of another kind, stand together: a {needed} "
-                "is needed here",
-            ),
+            _("straight and turning motion, or units of another kind, stand together: a {needed} is needed here"),
             _("give all masses in kg with N/m and N·s/m, or all in kg·m² with N·m/rad and N·m·s/rad"),
             needed=kinds[word].replace("_", " "),
         )
@@ -442,9 +432,7 @@ class Vibration(Result):
         if excitation.base is not None:
             spring, damper = (self.system.to_ground(t) for t in (self.system.springs, self.system.dampers))
             return np.asarray((spring + 1j * frequency[:, None] * damper) * excitation.base)
-        strength = (
-            excitation.force if excitation.force is not None else (excitation.unbalance or 0.0) * frequency**2
-        )
+        strength = excitation.force if excitation.force is not None else (excitation.unbalance or 0.0) * frequency**2
         found[:, names.index(excitation.on)] = strength
         return found
 
@@ -469,9 +457,7 @@ class Vibration(Result):
     @property
     def in_time(self) -> bool:
         """Whether there is a response in time: from a start, or under a measured force."""
-        return bool(self.system.start) or (
-            self.system.excitation is not None and bool(self.system.excitation.times)
-        )
+        return bool(self.system.start) or (self.system.excitation is not None and bool(self.system.excitation.times))
 
     def sweep(self) -> tuple[Floats, Complexes]:
         """Angular frequencies around all modes, and the complex amplitudes there; poles without damping avoided."""
@@ -528,35 +514,24 @@ class Vibration(Result):
             )
             label = say(_("f{index}", index=i + 1))
             rows.append(
-                Row(
-                    f"frequency_{i + 1}",
-                    own / (2 * math.pi),
-                    "frequency",
-                    label,
-                    _("mode: {mode}", mode=mode),
-                )
+                Row(f"frequency_{i + 1}", own / (2 * math.pi), "frequency", label, _("mode: {mode}", mode=mode))
             )
             rows.append(Row(f"circular_{i + 1}", float(own), "angular_velocity", f"  ω{i + 1}"))
             if self.linear.damping.any():
                 rows.append(Row(f"damping_{i + 1}", float(self.damping_ratios[i]), "", f"  ζ{i + 1}"))
         loose = int((self.frequencies == 0).sum())
         remarks = (
-            (
-                say(
-                    _(
-                        "{count} of the modes are free motions: nothing ties the system to the ground.",
-                        count=loose,
-                    )
-                ),
-            )
+            (say(_("{count} of the modes are free motions: nothing ties the system to the ground.", count=loose)),)
             if loose
             else ()
         )
         found = [Block("modes", _("Natural frequencies and modes"), rows, remarks)]
         for name in ("absorber",):
             if name in self.system.springs and name in self.system.dampers:
-                tied = [Row("absorber_stiffness", self.system.springs[name].rate, "stiffness"),
-                        Row("absorber_damping", self.system.dampers[name].rate, "damping")]  # fmt: skip
+                tied = [
+                    Row("absorber_stiffness", self.system.springs[name].rate, "stiffness"),
+                    Row("absorber_damping", self.system.dampers[name].rate, "damping"),
+                ]
                 found.append(Block("absorber", _("Best damped absorber (Den Hartog)"), tied))
         if self.harmonic:
             found.append(self._forced(say))
@@ -572,17 +547,11 @@ class Vibration(Result):
         length = "angle" if self.system.turning else "length"
         rows = []
         for name, value in zip(self.system.masses, moved, strict=True):
-            rows.append(
-                Row(f"{name}.amplitude", float(abs(value)), length, _("amplitude of {name}", name=name))
-            )
-            rows.append(
-                Row(f"{name}.phase", float(np.angle(value)), "angle", _("phase of {name}", name=name))
-            )
+            rows.append(Row(f"{name}.amplitude", float(abs(value)), length, _("amplitude of {name}", name=name)))
+            rows.append(Row(f"{name}.phase", float(np.angle(value)), "angle", _("phase of {name}", name=name)))
         rows.append(Row("transmissibility", float(self.transmissibility(at)[0])))
         return Block(
-            "forced",
-            _("Forced vibration at {hertz} Hz", hertz=number(excitation.frequency / (2 * math.pi))),
-            rows,
+            "forced", _("Forced vibration at {hertz} Hz", hertz=number(excitation.frequency / (2 * math.pi))), rows
         )
 
     def _timed(self, say: Translate) -> Block:
@@ -592,15 +561,7 @@ class Vibration(Result):
         for i, name in enumerate(self.system.masses):
             place, value = largest_between(time, moved[:, i], rate[:, i])
             note = _("at t = {time} s", time=number(place))
-            rows.append(
-                Row(
-                    f"{name}.largest",
-                    value,
-                    length,
-                    _("largest displacement of {name}", name=name),
-                    note,
-                )
-            )
+            rows.append(Row(f"{name}.largest", value, length, _("largest displacement of {name}", name=name), note))
         return Block("response", _("Response in time"), rows)
 
     def steps(self, say: Translate) -> list[Step]:
@@ -609,11 +570,7 @@ class Vibration(Result):
             Step("2", say(_("det(K − ω²M) = 0"))),
         )
         matrices.say(say(_("in the order {names}, SI units:", names=", ".join(self.system.masses))))
-        for symbol, matrix in (
-            ("M", self.linear.mass),
-            ("C", self.linear.damping),
-            ("K", self.linear.stiffness),
-        ):
+        for symbol, matrix in (("M", self.linear.mass), ("C", self.linear.damping), ("K", self.linear.stiffness)):
             if symbol != "C" or matrix.any():
                 matrices.items.append(named_matrix(symbol, matrix))
         one = len(self.frequencies) == 1

@@ -125,8 +125,17 @@ def split_index(name: str) -> tuple[str, str]:
 
 
 FAMILIES = (
-    "Noto Sans", "DejaVu Sans", "Segoe UI", "Helvetica Neue", "Arial",
-    "Noto Sans SC", "Noto Sans CJK SC", "Source Han Sans SC", "Microsoft YaHei", "PingFang SC",
-    "WenQuanYi Micro Hei", "sans-serif",
-)  # fmt: skip
+    "Noto Sans",
+    "DejaVu Sans",
+    "Segoe UI",
+    "Helvetica Neue",
+    "Arial",
+    "Noto Sans SC",
+    "Noto Sans CJK SC",
+    "Source Han Sans SC",
+    "Microsoft YaHei",
+    "PingFang SC",
+    "WenQuanYi Micro Hei",
+    "sans-serif",
+)
 FAMILY_LIST = ", ".join(f"'{name}'" if " " in name else name for name in FAMILIES)

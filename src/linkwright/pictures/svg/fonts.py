@@ -14,14 +14,43 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.words import _
 
 _CHINESE_FILES = (
-    "notosanscjk", "notosanssc", "notosanstc", "notoserifcjk", "sourcehan", "wqy", "droidsansfallback",
-    "msyh", "simhei", "simsun", "deng", "pingfang", "hiragino", "stheiti", "arialunicode", "uming", "ukai",
-)  # fmt: skip
+    "notosanscjk",
+    "notosanssc",
+    "notosanstc",
+    "notoserifcjk",
+    "sourcehan",
+    "wqy",
+    "droidsansfallback",
+    "msyh",
+    "simhei",
+    "simsun",
+    "deng",
+    "pingfang",
+    "hiragino",
+    "stheiti",
+    "arialunicode",
+    "uming",
+    "ukai",
+)
 #: What the names of files say that hold other faces than the regular one.
 _SPECIAL = (
-    "bold", "black", "heavy", "thin", "light", "medium", "italic", "oblique", "mono", "serif", "song", "ming", "kai",
-    "simsun", "hk", "tc",
-)  # fmt: skip
+    "bold",
+    "black",
+    "heavy",
+    "thin",
+    "light",
+    "medium",
+    "italic",
+    "oblique",
+    "mono",
+    "serif",
+    "song",
+    "ming",
+    "kai",
+    "simsun",
+    "hk",
+    "tc",
+)
 _SUFFIXES = (".ttf", ".ttc", ".otf", ".otc")
 
 
@@ -129,7 +158,7 @@ def check_fonts(text: str, own: Sequence[Path] = ()) -> None:
     """Refuse to draw boxes: raise where no font is found, or none for the Chinese characters in the text."""
     remedy = _(
         "install one (Debian: fonts-noto-cjk), or name its file or folder: --fonts FOLDER on "
-        "the command line, fonts=['NotoSansSC-Regular.ttf'] in Python",
+        "the command line, fonts=['NotoSansSC-Regular.ttf'] in Python"
     )
     if own or own_fonts():
         return

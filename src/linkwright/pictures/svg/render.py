@@ -38,10 +38,7 @@ def png(svg: str, *, width: int | None = None, zoom: float = 2.0, fonts: Paths =
         import resvg_py
     except ImportError:
         raise LinkwrightError(
-            _(
-                'PNG pictures need resvg-py; install it with: pip install "linkwright[plot]"',
-                code="picture.png_needs",
-            )
+            _('PNG pictures need resvg-py; install it with: pip install "linkwright[plot]"', code="picture.png_needs")
         ) from None
     files = _font_files(fonts)
     check_fonts(svg, files)
@@ -53,10 +50,7 @@ def png(svg: str, *, width: int | None = None, zoom: float = 2.0, fonts: Paths =
     try:
         return bytes(
             resvg_py.svg_to_bytes(
-                svg_string=svg,
-                font_files=[str(file) for file in files],
-                sans_serif_family="DejaVu Sans",
-                **size,
+                svg_string=svg, font_files=[str(file) for file in files], sans_serif_family="DejaVu Sans", **size
             )
         )
     except ValueError as problem:
@@ -109,10 +103,7 @@ def pdf(svg: str, *, fonts: Paths = (), millimetres: tuple[float, float] | None 
         typst: Any = importlib.import_module("typst")
     except ImportError:
         raise LinkwrightError(
-            _(
-                'PDF pictures need typst; install it with: pip install "linkwright[plot]"',
-                code="picture.pdf_needs",
-            )
+            _('PDF pictures need typst; install it with: pip install "linkwright[plot]"', code="picture.pdf_needs")
         ) from None
     files = _font_files(fonts)
     check_fonts(svg, files)

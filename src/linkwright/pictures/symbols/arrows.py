@@ -49,12 +49,7 @@ def crank_arrow(
 
 @SYMBOLS.register("slide_arrow")
 def slide_arrow(
-    *,
-    at: Vec = (0.0, 0.0),
-    along: Vec = (1.0, 0.0),
-    length: float = 34.0,
-    both: bool = True,
-    style: str = "lw-input",
+    *, at: Vec = (0.0, 0.0), along: Vec = (1.0, 0.0), length: float = 34.0, both: bool = True, style: str = "lw-input"
 ) -> Shape:
     """A straight arrow: the direction in which a block is driven; ``both`` for a motion to and fro."""
     a = length / 2
@@ -120,11 +115,7 @@ def pressure(
 
 @SYMBOLS.register("dimension_line")
 def dimension_line(
-    *,
-    start: Vec = (0.0, 0.0),
-    end: Vec = (80.0, 0.0),
-    offset: float = 26.0,
-    rises: tuple[float, float] = (0.0, 0.0),
+    *, start: Vec = (0.0, 0.0), end: Vec = (80.0, 0.0), offset: float = 26.0, rises: tuple[float, float] = (0.0, 0.0)
 ) -> Shape:
     """A line with two heads next to the distance from ``start`` to ``end``, with extension lines.
 
@@ -154,9 +145,7 @@ def dimension_line(
 
 
 @SYMBOLS.register("dimension_arc")
-def dimension_arc(
-    *, at: Vec = (0.0, 0.0), radius: float = 34.0, first: float = 0.0, sweep: float = -1.0
-) -> Shape:
+def dimension_arc(*, at: Vec = (0.0, 0.0), radius: float = 34.0, first: float = 0.0, sweep: float = -1.0) -> Shape:
     """An arc with two heads for an angle at a place, from the direction ``first`` on (rad, clockwise on paper)."""
     angle = first + sweep * np.linspace(0.0, 1.0, 25)
     arc = around(at, radius, angle)

@@ -36,12 +36,7 @@ _TOOTH = np.array([(-0.5, -1.0), (-0.32, -1.0), (-0.16, 1.0), (0.16, 1.0), (0.32
 
 @SYMBOLS.register("gear")
 def gear(
-    *,
-    at: Vec = (0.0, 0.0),
-    radius: float = 40.0,
-    turned: float = 0.0,
-    inside: bool = False,
-    teeth: int | None = None,
+    *, at: Vec = (0.0, 0.0), radius: float = 40.0, turned: float = 0.0, inside: bool = False, teeth: int | None = None
 ) -> Shape:
     """A gear: teeth on its pitch circle, a chain line; ``inside`` for the teeth of a ring gear.
 

@@ -5,17 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.pictures.picture import Circle, Line, Vec
-from linkwright.pictures.symbols.base import (
-    PIN,
-    SYMBOLS,
-    Shape,
-    around,
-    hatching,
-    joined,
-    placed,
-    points,
-    ring,
-)
+from linkwright.pictures.symbols.base import PIN, SYMBOLS, Shape, around, hatching, joined, placed, points, ring
 
 
 @SYMBOLS.register("pin")
@@ -42,16 +32,26 @@ def fixed_pivot(*, at: Vec = (0.0, 0.0), toward: Vec = (0.0, 1.0), size: float =
         Line(ground, "lw-ground"),
         *(Line(stroke, "lw-hatch") for stroke in hatching(first, last, 1)),
     )
-    outline = placed([(0, 0), (size, -half), (size, -base), (size + 7, -base), (size + 7, base), (size, base),
-                      (size, half), (0, 0)], at, toward)  # fmt: skip
+    outline = placed(
+        [
+            (0, 0),
+            (size, -half),
+            (size, -base),
+            (size + 7, -base),
+            (size + 7, base),
+            (size, base),
+            (size, half),
+            (0, 0),
+        ],
+        at,
+        toward,
+    )
     middle = placed([(0, 0), (size + 4, 0), (size + 4, -base), (size + 4, base)], at, toward)
     return Shape(elements, (outline, middle))
 
 
 @SYMBOLS.register("weld")
-def weld(
-    *, at: Vec = (0.0, 0.0), first: Vec = (1.0, 0.0), second: Vec = (0.0, 1.0), size: float = 13.0
-) -> Shape:
+def weld(*, at: Vec = (0.0, 0.0), first: Vec = (1.0, 0.0), second: Vec = (0.0, 1.0), size: float = 13.0) -> Shape:
     """A filled triangle between the directions ``first`` and ``second`` of two bars; a square where they align."""
     cross = first[0] * second[1] - first[1] * second[0]
     if abs(cross) < 0.17:
@@ -108,18 +108,14 @@ def ground_guide(
 
 
 @SYMBOLS.register("moving_guide")
-def moving_guide(
-    *, at: Vec = (0.0, 0.0), along: Vec = (1.0, 0.0), start: float = -30.0, end: float = 30.0
-) -> Shape:
+def moving_guide(*, at: Vec = (0.0, 0.0), along: Vec = (1.0, 0.0), start: float = -30.0, end: float = 30.0) -> Shape:
     """The rod of a moving link on which a block slides."""
     rod = placed([(start, 0), (end, 0)], at, along)
     return Shape((Line(rod, "lw-bar"),), (rod,))
 
 
 @SYMBOLS.register("slider")
-def slider(
-    *, at: Vec = (0.0, 0.0), along: Vec = (1.0, 0.0), length: float = LENGTH, height: float = HEIGHT
-) -> Shape:
+def slider(*, at: Vec = (0.0, 0.0), along: Vec = (1.0, 0.0), length: float = LENGTH, height: float = HEIGHT) -> Shape:
     """A block with its long side along the guide."""
     a, b = length / 2, height / 2
     corners = placed([(-a, -b), (a, -b), (a, b), (-a, b)], at, along)
@@ -128,9 +124,7 @@ def slider(
 
 
 @SYMBOLS.register("barrel")
-def barrel(
-    *, at: Vec = (0.0, 0.0), along: Vec = (1.0, 0.0), length: float = 60.0, height: float = 15.0
-) -> Shape:
+def barrel(*, at: Vec = (0.0, 0.0), along: Vec = (1.0, 0.0), length: float = 60.0, height: float = 15.0) -> Shape:
     """The barrel, hinged at ``at``."""
     a, b = 1.6 * PIN, height / 2
     box = placed([(a, -b), (length, -b), (length, b), (a, b)], at, along)
@@ -140,9 +134,7 @@ def barrel(
 
 
 @SYMBOLS.register("piston")
-def piston(
-    *, at: Vec = (0.0, 0.0), along: Vec = (1.0, 0.0), length: float = 40.0, height: float = 15.0
-) -> Shape:
+def piston(*, at: Vec = (0.0, 0.0), along: Vec = (1.0, 0.0), length: float = 40.0, height: float = 15.0) -> Shape:
     """Rod and piston; the rod ends at ``at`` and reaches back ``length`` against ``along``."""
     rod = placed([(-length, 0), (0, 0)], at, along)
     head = placed([(-length, -0.36 * height), (-length, 0.36 * height)], at, along)

@@ -42,9 +42,11 @@ def damper(*, start: Vec = (0.0, 0.0), end: Vec = (60.0, 0.0), height: float = 8
     body = min(26.0, 0.5 * length)
     a, b, c = (length - body) / 2, (length + body) / 2, length / 2 + 0.15 * body
     lines = (
-        [(0, 0), (a, 0)], [(b, -height), (a, -height), (a, height), (b, height)],
-        [(c, -0.7 * height), (c, 0.7 * height)], [(c, 0), (length, 0)],
-    )  # fmt: skip
+        [(0, 0), (a, 0)],
+        [(b, -height), (a, -height), (a, height), (b, height)],
+        [(c, -0.7 * height), (c, 0.7 * height)],
+        [(c, 0), (length, 0)],
+    )
     strokes = [placed(line, start, along) for line in lines]
     return Shape(tuple(Line(stroke, "lw-spring") for stroke in strokes), tuple(strokes))
 

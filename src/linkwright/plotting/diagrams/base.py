@@ -119,12 +119,8 @@ class ResultDiagram:
         return isinstance(result, self.takes) and self.when(result)
 
 
-DIAGRAMS: Registry[type[Kind]] = Registry(
-    _("kind of diagram"), "linkwright.plotting.diagrams", attribute="name"
-)
-RESULT_DIAGRAMS: Registry[ResultDiagram] = Registry(
-    _("kind of diagram"), "linkwright.plotting.result_diagrams"
-)
+DIAGRAMS: Registry[type[Kind]] = Registry(_("kind of diagram"), "linkwright.plotting.diagrams", attribute="name")
+RESULT_DIAGRAMS: Registry[ResultDiagram] = Registry(_("kind of diagram"), "linkwright.plotting.result_diagrams")
 
 
 def title_of(kind: str) -> Message:

@@ -86,9 +86,7 @@ def plot(
         "fluctuation": fluctuation,
         "static": static,
     }
-    require_options(
-        name, [option for option, value in options.items() if value not in (None, (), "", [], False)]
-    )
+    require_options(name, [option for option, value in options.items() if value not in (None, (), "", [], False)])
     if size is not None:
         _require_inches(size)
     request = Request(
@@ -107,9 +105,7 @@ def plot(
     if len(sources) > 1 and (single_message := DIAGRAMS[name].single) is not None:
         raise RequestError(single_message)
     with drawing_in(language):
-        drawn = (
-            RESULT_DIAGRAMS[name].draw(result, request) if own else DIAGRAMS[name]().draw(sources, request)
-        )
+        drawn = RESULT_DIAGRAMS[name].draw(result, request) if own else DIAGRAMS[name]().draw(sources, request)
     return Diagram(name, drawn, language)
 
 
@@ -119,8 +115,7 @@ def _require_inches(size: object) -> None:
     if len(numbers) != 2 or not all(1.0 <= real("size", each) <= 100.0 for each in numbers):
         raise RequestError(
             _(
-                "a diagram cannot be {size} inches large; give width and height, 1 to 100 each, as "
-                "in size=(6, 4)",
+                "a diagram cannot be {size} inches large; give width and height, 1 to 100 each, as in size=(6, 4)",
                 code="picture.bad_inches",
                 size=repr(size)[:60],
             )
@@ -154,8 +149,7 @@ def require_options(name: str, options: Sequence[str]) -> None:
             users = tuple(each for each in DIAGRAMS if option in DIAGRAMS[each].options)
             raise RequestError(
                 _(
-                    'a diagram of the kind {kind} has no use for "{option}"; leave it out, or draw one '
-                    "of {users}",
+                    'a diagram of the kind {kind} has no use for "{option}"; leave it out, or draw one of {users}',
                     code="picture.no_use",
                     kind=name,
                     option=option,
@@ -197,15 +191,10 @@ def _sources(result: object, *, static: bool) -> list[PlotInput]:
         require(each, Mechanism, Motion, Forces, SteadyRunning)
     found = [PlotInput(each, label, static=static) for label, each in results]
     if not found:
-        raise RequestError(
-            _("there is nothing to draw; give at least one result", code="picture.nothing_given")
-        )
+        raise RequestError(_("there is nothing to draw; give at least one result", code="picture.nothing_given"))
     if len(found) > 1 and len({source.label for source in found}) < len(found):
         raise RequestError(
-            _(
-                "results have equal names; give labels: plot({{'a': …, 'b': …}})",
-                code="picture.equal_names",
-            )
+            _("results have equal names; give labels: plot({{'a': …, 'b': …}})", code="picture.equal_names")
         )
     return found
 

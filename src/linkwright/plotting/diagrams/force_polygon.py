@@ -73,8 +73,7 @@ class ForcePolygon(Kind):
 
     title = _("force polygons")
     single = _(
-        "force polygons show one mechanism at one position; give one result",
-        code="picture.one_mechanism_forces",
+        "force polygons show one mechanism at one position; give one result", code="picture.one_mechanism_forces"
     )
     options = ("of", "at", "static")
 
@@ -89,9 +88,7 @@ class ForcePolygon(Kind):
         roles = {PLAIN.get(force.role, force.role) for each in parts.values() for force in each}
         wide = page_width(cells[:IN_ROW], IN_ROW)
         title = request.titled(source.label, f"{say(self.title)}, {source.place_text(forces.motion, say)}")
-        numbered = fold(
-            ", ".join(numbered_links(link_numbers(forces.mechanism), request.language)), wide, SIZE
-        )
+        numbered = fold(", ".join(numbered_links(link_numbers(forces.mechanism), request.language)), wide, SIZE)
         below = [key([(say(ROLES[role]), style) for role, style in STYLES.items() if role in roles])]
         below += [[((line, "lw-legend"), 0.0)] for line in numbered]
         return page(cells, IN_ROW, below, request.heading(title), title)

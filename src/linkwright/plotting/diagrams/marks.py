@@ -103,9 +103,7 @@ def _snapped(x: np.ndarray[tuple[int], np.dtype[np.float64]], index: int, limits
     step = abs(float(x[1] - x[0])) * 1.01
     here = float(x[index])
     return min(
-        (each.place for each in limits if abs(each.place - here) <= step),
-        key=lambda p: abs(p - here),
-        default=here,
+        (each.place for each in limits if abs(each.place - here) <= step), key=lambda p: abs(p - here), default=here
     )
 
 
@@ -131,14 +129,33 @@ def _mark(axes: Axes, curve: Curve, axis: InputAxis, unit: Unit) -> None:
         if places[-1] < places[0]:
             share = 1.0 - share
         if np.isinf(value):
-            axes.annotate("∞" if value > 0.0 else "-∞", (x, float(value > 0.0)), (0, -4 if value > 0.0 else 4),
-                          xycoords=axes.get_xaxis_transform(), textcoords="offset points", ha="center",
-                          va="top" if value > 0.0 else "bottom", fontsize=9, color=INK, bbox=_HALO)  # fmt: skip
+            axes.annotate(
+                "∞" if value > 0.0 else "-∞",
+                (x, float(value > 0.0)),
+                (0, -4 if value > 0.0 else 4),
+                xycoords=axes.get_xaxis_transform(),
+                textcoords="offset points",
+                ha="center",
+                va="top" if value > 0.0 else "bottom",
+                fontsize=9,
+                color=INK,
+                bbox=_HALO,
+            )
             continue
         side = "left" if share < 0.12 else "right" if share > 0.88 else "center"
         axes.plot([x], [y], "o", color=curve.colour, markersize=3.6, zorder=4)
-        axes.annotate(unit.text(value), (x, y), (0, 4 if above else -4), textcoords="offset points", ha=side,
-                      va="bottom" if above else "top", fontsize=7.5, color=INK, bbox=_HALO, zorder=5)  # fmt: skip
+        axes.annotate(
+            unit.text(value),
+            (x, y),
+            (0, 4 if above else -4),
+            textcoords="offset points",
+            ha=side,
+            va="bottom" if above else "top",
+            fontsize=7.5,
+            color=INK,
+            bbox=_HALO,
+            zorder=5,
+        )
 
 
 def _peaks(curve: Curve, axis: InputAxis) -> list[tuple[float, float, bool]]:
@@ -237,6 +254,9 @@ def _arrow(axes: Axes, curve: Floats, good: Flags, colour: str) -> None:
     index = min(max(index, 1), len(curve) - 3)
     if not good[index - 1 : index + 2].all() or (curve[index - 1] == curve[index + 1]).all():
         return
-    axes.annotate("", tuple(curve[index + 1]), tuple(curve[index - 1]),
-                  arrowprops={"arrowstyle": "-|>", "color": colour, "mutation_scale": 11,
-                              "shrinkA": 0, "shrinkB": 0})  # fmt: skip
+    axes.annotate(
+        "",
+        tuple(curve[index + 1]),
+        tuple(curve[index - 1]),
+        arrowprops={"arrowstyle": "-|>", "color": colour, "mutation_scale": 11, "shrinkA": 0, "shrinkB": 0},
+    )

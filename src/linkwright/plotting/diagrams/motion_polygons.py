@@ -72,10 +72,7 @@ class MotionPolygons(Kind):
     unit: ClassVar[str]
     letter: ClassVar[str]
     prime: ClassVar[str] = ""
-    single = _(
-        "a polygon shows one mechanism at one position; give one result",
-        code="picture.one_mechanism",
-    )
+    single = _("a polygon shows one mechanism at one position; give one result", code="picture.one_mechanism")
 
     @abstractmethod
     def polygon(self, motion: Motion) -> MotionPolygon:
@@ -93,10 +90,7 @@ class MotionPolygons(Kind):
         say = request.say
         scale_text = scale_title(say(_("polygon")), self.letter, f"{significant(scale)} {per_mm(self.unit)}")
         bar = f"{significant(BAR * MILLIMETRE * scale)} {self.unit}"
-        cells = [
-            position_cell(motion, say),
-            Cell(_sketch(polygon, scale, self.prime), (scale_text,), bar),
-        ]
+        cells = [position_cell(motion, say), Cell(_sketch(polygon, scale, self.prime), (scale_text,), bar)]
         roles = {step.role for step in polygon.steps}
         subject = f"{say(self.title)}, {source.place_text(motion, say)}"
         title = request.titled(source.label, subject)
@@ -144,9 +138,7 @@ def _sketch(polygon: MotionPolygon, scale: float, prime: str) -> Sketch:
         sketch.arrow(units(start), units(end), f"lw-{step.role}")
     for names, image in gathered(polygon, scale, prime):
         sketch.circle(vec(units(image)), 1.8, "lw-point")
-        sketch.labels.append(
-            Label(", ".join(names), (vec(units(image)),), size=13.0, clearance=5.0, leader=False)
-        )
+        sketch.labels.append(Label(", ".join(names), (vec(units(image)),), size=13.0, clearance=5.0, leader=False))
     sketch.write_names()
     return sketch
 
@@ -195,8 +187,7 @@ def _table(polygon: MotionPolygon, unit: str) -> list[Written]:
         sizes: list[Written] = [
             (
                 joined(
-                    indexed(step.letter, step.name, ABOVE.get(step.role, "")),
-                    f" = {significant(step.size)} {unit}",
+                    indexed(step.letter, step.name, ABOVE.get(step.role, "")), f" = {significant(step.size)} {unit}"
                 ),
                 f"lw-{step.role}-name",
             )
@@ -211,7 +202,4 @@ def _columns(texts: list[Written], width: float) -> list[list[tuple[Written, flo
     """Texts in lines of columns that are read downwards."""
     columns = int(width // COLUMN)
     rows = -(-len(texts) // columns)
-    return [
-        [(text, number * width / columns) for number, text in enumerate(texts[row::rows])]
-        for row in range(rows)
-    ]
+    return [[(text, number * width / columns) for number, text in enumerate(texts[row::rows])] for row in range(rows)]

@@ -134,9 +134,7 @@ class _Polygon:
             return
         corner = start - float(state.angular_velocity[i]) ** 2 * arm
         self.found.put("a", pair, "normal", start, corner)
-        self.found.put(
-            "a", pair, "tangential", corner, corner + float(state.angular_acceleration[i]) * across
-        )
+        self.found.put("a", pair, "tangential", corner, corner + float(state.angular_acceleration[i]) * across)
 
     def _guide(self, joint: SlidingJoint) -> None:
         """From the guide's point under the block to the block's own point."""

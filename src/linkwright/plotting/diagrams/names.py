@@ -21,12 +21,7 @@ LOW = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 SIZE, CLEARANCE, CORNERS = 7.5, 3.5, 180
 #: Two spare names nearer to each other than this, across and up, are not both written, points.
 NEAR = np.array([20.0, 10.0])
-_HALO: dict[str, Any] = {
-    "boxstyle": "round,pad=0.08",
-    "facecolor": "white",
-    "edgecolor": "none",
-    "alpha": 0.75,
-}
+_HALO: dict[str, Any] = {"boxstyle": "round,pad=0.08", "facecolor": "white", "edgecolor": "none", "alpha": 0.75}
 
 
 @dataclass(frozen=True)
@@ -72,18 +67,25 @@ def _write(names: Names, scale: float) -> None:
     for (each, at), chosen in zip(shown, places, strict=True):
         box = np.array(chosen.box)
         offset = (0.5 * (box[:2] + box[2:]) - at) * (1.0, -1.0)
-        axes.annotate(with_index(each.text), vec(each.place), vec(offset), textcoords="offset points", ha="center",
-                      va="center", fontsize=SIZE, color=INK, zorder=5,
-                      bbox=_HALO if each.spare else None).set_in_layout(False)  # fmt: skip
+        axes.annotate(
+            with_index(each.text),
+            vec(each.place),
+            vec(offset),
+            textcoords="offset points",
+            ha="center",
+            va="center",
+            fontsize=SIZE,
+            color=INK,
+            zorder=5,
+            bbox=_HALO if each.spare else None,
+        ).set_in_layout(False)
 
 
 def _with_room(names: Sequence[Name], places: Sequence[Floats]) -> list[tuple[Name, Floats]]:
     """Names with their places on the paper, without spare ones for which there is no room."""
     found: list[tuple[Name, Floats]] = []
     for name, at in zip(names, places, strict=True):
-        if not name.spare or not any(
-            (np.abs(at - other) < NEAR).all() for each, other in found if each.spare
-        ):
+        if not name.spare or not any((np.abs(at - other) < NEAR).all() for each, other in found if each.spare):
             found.append((name, at))
     return found
 
@@ -116,8 +118,14 @@ def draw_machine(names: Names, motion: Motion, index: int, *, factor: float) -> 
             colour, alpha = _FILLS.get(item.style, ("white", 1.0))
             if item.style != "lw-pitch":
                 axes.fill(*line.T, color=colour, alpha=alpha, linewidth=0, zorder=order)
-        axes.plot(*line.T, color=LINK if thick else INK, linewidth=1.6 if thick else 0.7, linestyle=dash,
-                  solid_capstyle="round", zorder=order)  # fmt: skip
+        axes.plot(
+            *line.T,
+            color=LINK if thick else INK,
+            linewidth=1.6 if thick else 0.7,
+            linestyle=dash,
+            solid_capstyle="round",
+            zorder=order,
+        )
         names.lines.append(line)
     labels = point_labels(scene.machine, index)
     names.names += [Name(label.text, np.array(label.anchors[0]) * to_axes) for label in labels]
@@ -131,5 +139,13 @@ def draw_support(axes: Axes, at: Floats, colour: str = INK) -> None:
     strokes = [item.placed(np.zeros(2), scale=(SUPPORT, -SUPPORT)).outline for item in items]
     shape = Path.make_compound_path(*(Path(list(map(vec, stroke))) for stroke in strokes))
     size = 2.0 * float(np.abs(np.concatenate(strokes)).max())
-    axes.plot(*at[:, None], marker=shape, markersize=size, markerfacecolor="none", markeredgecolor=colour,
-              markeredgewidth=0.8, linestyle="", zorder=2.4)  # fmt: skip
+    axes.plot(
+        *at[:, None],
+        marker=shape,
+        markersize=size,
+        markerfacecolor="none",
+        markeredgecolor=colour,
+        markeredgewidth=0.8,
+        linestyle="",
+        zorder=2.4,
+    )

@@ -89,10 +89,7 @@ def traced_points(mechanism: Mechanism) -> list[str]:
         for name, joint in mechanism.joints.items()
         if joint.coordinate == "turn" and mechanism.grounded.isdisjoint(joint.joined)
     ]
-    return (
-        pins
-        or [canonical(mechanism, link.name, p) for link in mechanism.links.values() for p in link.points][:1]
-    )
+    return pins or [canonical(mechanism, link.name, p) for link in mechanism.links.values() for p in link.points][:1]
 
 
 def joint_and_link(forces: Forces, joint: str | None, on: str | None) -> tuple[str, str]:
@@ -104,9 +101,7 @@ def joint_and_link(forces: Forces, joint: str | None, on: str | None) -> tuple[s
     if joint is None:
         pairs = reaction_pairs(mechanism)
         driven = {driver.joint for driver in mechanism.drivers.values()}
-        held = {
-            name for name, each in mechanism.joints.items() if mechanism.grounded & {*each.joined}
-        } - driven
+        held = {name for name, each in mechanism.joints.items() if mechanism.grounded & {*each.joined}} - driven
         on_frame = [pair for pair in pairs if pair[0] in held and pair[1] not in mechanism.grounded]
         if on is not None:
             on_frame = pairs = [p for p in pairs if p[1] == known_link(mechanism, on)]

@@ -23,10 +23,7 @@ class FlowChart(Kind):
     subprograms, forces in reverse order, output, over all positions of the motion."""
 
     title = _("flow chart of the solution")
-    single = _(
-        "a flow chart shows how one mechanism is solved; give one result",
-        code="picture.one_flow_chart",
-    )
+    single = _("a flow chart shows how one mechanism is solved; give one result", code="picture.one_flow_chart")
 
     def draw(self, sources: Sequence[PlotInput], request: Request) -> Drawing:
         (source,) = sources
@@ -43,8 +40,7 @@ class FreeBodies(Kind):
 
     title = _("free-body diagrams of the links")
     single = _(
-        "free-body diagrams show one mechanism at one position; give one result",
-        code="picture.one_free_bodies",
+        "free-body diagrams show one mechanism at one position; give one result", code="picture.one_free_bodies"
     )
     options = ("of", "at", "static")
 

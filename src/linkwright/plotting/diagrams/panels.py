@@ -11,15 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.outputs import Output
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, SHADE, Axes, Figure, new_figure
-from linkwright.plotting.diagrams.axes import (
-    InputAxis,
-    Legend,
-    Unit,
-    label_input,
-    make_plane,
-    plain_ticks,
-    unit_of,
-)
+from linkwright.plotting.diagrams.axes import InputAxis, Legend, Unit, label_input, make_plane, plain_ticks, unit_of
 from linkwright.plotting.diagrams.base import Kind, Request, framed
 from linkwright.plotting.diagrams.marks import (
     Curve,
@@ -65,14 +57,7 @@ class Panel:
 
 
 def with_mean(
-    title: str,
-    dimension: str,
-    curve: Curve,
-    mean: float,
-    request: Request,
-    whose: str = "",
-    *,
-    fill: bool = False,
+    title: str, dimension: str, curve: Curve, mean: float, request: Request, whose: str = "", *, fill: bool = False
 ) -> Panel:
     """A panel of one curve with the level of its mean, which the legend names with its value; without it where there
     is none, as of a cycle that is only partly reached."""
@@ -222,9 +207,7 @@ def _fill(axes: Axes, panel: Panel, axis: InputAxis, unit: Unit) -> None:
     x = (axis.values if curve.x is None else curve.x) * axis.unit.factor
     y = curve.values * unit.factor
     for where, colour in zip((y > level, y < level), colours, strict=True):
-        axes.fill_between(
-            x, y, level, where=where.tolist(), interpolate=True, color=colour, alpha=0.14, linewidth=0
-        )
+        axes.fill_between(x, y, level, where=where.tolist(), interpolate=True, color=colour, alpha=0.14, linewidth=0)
 
 
 def _set_range(axes: Axes, panel: Panel, axis: InputAxis, unit: Unit) -> None:
@@ -241,15 +224,11 @@ def _set_range(axes: Axes, panel: Panel, axis: InputAxis, unit: Unit) -> None:
         axes.set_ylim(low - room, high + room)
         return
     room = 0.2 * (high - low)
-    grounded = 0 <= low < 0.5 * high and not any(
-        curve.peak == "both" or curve.marks for curve in panel.curves
-    )
+    grounded = 0 <= low < 0.5 * high and not any(curve.peak == "both" or curve.marks for curve in panel.curves)
     axes.set_ylim(-0.02 * high if grounded else low - room, high + room)
 
 
-def _draw_marks(
-    axes: list[Axes], source: PlotInput, output: Output | None, legend: Legend, say: Translate
-) -> None:
+def _draw_marks(axes: list[Axes], source: PlotInput, output: Output | None, legend: Legend, say: Translate) -> None:
     factor = source.axis.unit.factor
     limits = limit_marks(source, output)
     for phase in phase_marks(source, limits):
@@ -265,9 +244,7 @@ def _draw_marks(
 
 def _shade(axes: list[Axes], phase: PhaseMark, factor: float) -> None:
     for one in axes:
-        one.axvspan(
-            phase.begin * factor, phase.end * factor, color=SHADE, alpha=0.75, linewidth=0, zorder=0.5
-        )
+        one.axvspan(phase.begin * factor, phase.end * factor, color=SHADE, alpha=0.75, linewidth=0, zorder=0.5)
 
 
 def _name_limits(axes: Axes, limits: list[LimitMark], axis: InputAxis, say: Translate) -> None:
@@ -279,6 +256,14 @@ def _name_limits(axes: Axes, limits: list[LimitMark], axis: InputAxis, say: Tran
         row = 1 - row if limit.place - before < 0.14 * span else 0
         before = limit.place
         text = f"{say(_('max') if limit.kind == 'max' else _('min'))} {axis.unit.text(limit.place)}"
-        axes.annotate(text, (limit.place * axis.unit.factor, 1.0), (0, 2 + 9 * row), ha="center", va="bottom",
-                      xycoords=("data", "axes fraction"), textcoords="offset points", fontsize=7.5,
-                      color=INK)  # fmt: skip
+        axes.annotate(
+            text,
+            (limit.place * axis.unit.factor, 1.0),
+            (0, 2 + 9 * row),
+            ha="center",
+            va="bottom",
+            xycoords=("data", "axes fraction"),
+            textcoords="offset points",
+            fontsize=7.5,
+            color=INK,
+        )

@@ -72,12 +72,7 @@ def _curves(source: PlotInput, request: Request) -> dict[str, Floats]:
 
 
 def _draw(
-    names: Names,
-    source: PlotInput,
-    curves: dict[str, Floats],
-    request: Request,
-    legend: Legend,
-    number: int | None,
+    names: Names, source: PlotInput, curves: dict[str, Floats], request: Request, legend: Legend, number: int | None
 ) -> None:
     axes = names.axes
     for which, (key, curve) in enumerate(curves.items()):
@@ -87,12 +82,7 @@ def _draw(
         names.line(curve)
         legend.add(key if number is None else f"{source.label}: {key}", line)
         alone = not any(artist.get_color() == LINK for artist in axes.lines)
-        if (
-            request.marks
-            and number is None
-            and source.mechanism.drivers
-            and (alone or _worth_marks(source, curve))
-        ):
+        if request.marks and number is None and source.mechanism.drivers and (alone or _worth_marks(source, curve)):
             mark_inputs(names, curve, source.axis, colour)
 
 

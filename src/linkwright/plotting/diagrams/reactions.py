@@ -90,16 +90,12 @@ def _of_one(source: PlotInput, request: Request) -> list[Panel]:
 
     named = "xy" if axes == "frame" else ("ξ", "η")
     parts = [
-        Curve(f"F{name}", force[:, i], "largest", COLOURS[1 + i], extremes=exact(i))
-        for i, name in enumerate(named)
+        Curve(f"F{name}", force[:, i], "largest", COLOURS[1 + i], extremes=exact(i)) for i, name in enumerate(named)
     ]
     exact_size = source.extremes(magnitude(joint, link), "forces")
     total = Curve("", np.hypot(force[:, 0], force[:, 1]), "max", extremes=exact_size)
     title = say(_("components")) if axes == "frame" else say(_("components in {link}", link=axes))
-    return [
-        Panel(say(_("joint force")) + " F", "force", (total,)),
-        Panel(title, "force", tuple(parts)),
-    ]
+    return [Panel(say(_("joint force")) + " F", "force", (total,)), Panel(title, "force", tuple(parts))]
 
 
 @DIAGRAMS.register("shaking")
@@ -151,9 +147,7 @@ class Hodograph(Kind):
             for place, view in zip(figure.subplots(1, len(views), squeeze=False)[0], views, strict=True)
         ]
         subject = request.say(_("hodograph of the force of joint {joint} on {link}", joint=joint, link=link))
-        framed(
-            figure, request.titled(sources[0].label if len(sources) == 1 else "", subject), request, legend
-        )
+        framed(figure, request.titled(sources[0].label if len(sources) == 1 else "", subject), request, legend)
         write_names(figure, names)
         return figure
 
@@ -220,8 +214,20 @@ def _largest(
         force = curve[first_largest(np.hypot(curve[:, 0], curve[:, 1]))]
         length = float(np.hypot(*force))
     x, y = force * unit.factor
-    axes.annotate("", (x, y), (0, 0), arrowprops={"arrowstyle": "-|>", "color": FAINT, "linewidth": 1.1,
-                  "mutation_scale": 11, "shrinkA": 0, "shrinkB": 0}, zorder=3)  # fmt: skip
+    axes.annotate(
+        "",
+        (x, y),
+        (0, 0),
+        arrowprops={
+            "arrowstyle": "-|>",
+            "color": FAINT,
+            "linewidth": 1.1,
+            "mutation_scale": 11,
+            "shrinkA": 0,
+            "shrinkB": 0,
+        },
+        zorder=3,
+    )
     legend.line(request.say(_("largest force {value}", value=unit.text(length))), FAINT, "-")
 
 

@@ -92,14 +92,7 @@ class Cell:
         return y + 14.0
 
 
-def page(
-    cells: Sequence[Placed],
-    columns: int,
-    below: Below,
-    heading: str,
-    title: str,
-    css: str = "",
-) -> Drawing:
+def page(cells: Sequence[Placed], columns: int, below: Below, heading: str, title: str, css: str = "") -> Drawing:
     """Cells in rows under a heading, and lines of texts below, each with its place in the line."""
     paper = Sketch()
     if css:
@@ -229,10 +222,7 @@ def vector_cell(
     rows = [each.value for each in vectors]
     scale = scale_of_picture(corners(rows), EXTENT)
     pairs = side_by_side(
-        [
-            *pairwise(corners(rows) / scale),
-            *([] if resultant is None else [(np.zeros(2), resultant.value / scale)]),
-        ]
+        [*pairwise(corners(rows) / scale), *([] if resultant is None else [(np.zeros(2), resultant.value / scale)])]
     )
     shown = [*vectors, *([] if resultant is None else [resultant])]
     sketch = Sketch()

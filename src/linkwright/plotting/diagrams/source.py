@@ -156,9 +156,7 @@ class PlotInput:
             if extreme is None:
                 return None
             sample = np.nanmax(shown) if kind == "max" else np.nanmin(shown)
-            return replace(
-                extreme, value=extreme.value + TURN * float(np.round((sample - extreme.value) / TURN))
-            )
+            return replace(extreme, value=extreme.value + TURN * float(np.round((sample - extreme.value) / TURN)))
 
         return found
 

@@ -101,11 +101,7 @@ def _of_named(source: PlotInput, output: Output) -> list[Panel]:
     """An output that the model names, with those of its rates that are known."""
     own = source.mechanism.outputs[output.owner].outputs
     return [
-        Panel(
-            each.name,
-            each.dimension,
-            (Curve("", source.ended(read), "both", extremes=source.extremes(read)),),
-        )
+        Panel(each.name, each.dimension, (Curve("", source.ended(read), "both", extremes=source.extremes(read)),))
         for each in own[NAMED.index(output.kind) :]
         for read in [methodcaller("read", each)]
     ]
@@ -172,9 +168,7 @@ class Angles(OverInput):
         change = _flat(shown)
         omega = [source.closed(motion.link(name).angular_velocity) for name in links]
         alpha = [source.closed(motion.link(name).angular_acceleration) for name in links]
-        angle = [
-            values - values[np.isfinite(values)][0] if change else _near_zero(values) for values in shown
-        ]
+        angle = [values - values[np.isfinite(values)][0] if change else _near_zero(values) for values in shown]
         return [
             Panel(
                 say(_("angle from the start θ − θ₀")) if change else say(_("angle")) + " θ",

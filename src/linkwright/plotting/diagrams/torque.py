@@ -107,9 +107,7 @@ class Energy(OverInput):
         mean = reduced.direction * reduced.load.mean
         title = say(_("input torque")) + " T"
         curve = Curve("", torque, "both", x=place, extremes=_of_torque(reduced))
-        change = say(
-            _("energy fluctuation ΔE = {value}", value=unit_of("energy", [found.energy]).text(found.value))
-        )
+        change = say(_("energy fluctuation ΔE = {value}", value=unit_of("energy", [found.energy]).text(found.value)))
         return [
             with_mean(title, "torque", curve, mean, request, fill=True),
             Panel(say(_("energy")) + " E", "energy", (Curve(change, found.energy, "both"),)),
@@ -149,9 +147,7 @@ class Speed(OverInput):
         say, mean = request.say, running.equivalent.speed
         title = say(_("speed of the input")) + " ω"
         level = Level(say(_("mean {value}", value=f"{significant(mean)} rad/s")), mean)
-        first = _curve(
-            running, running.exact_speed, running.exact_flywheel, say(_("with flywheel")), COLOURS[0]
-        )
+        first = _curve(running, running.exact_speed, running.exact_flywheel, say(_("with flywheel")), COLOURS[0])
         found = [Panel(title, "angular_velocity", (first,), (level,))]
         alone = _alone(running) if running.exact_flywheel > 0 else None
         if alone is not None:

@@ -83,9 +83,7 @@ def dimension_lines(
     return found
 
 
-def _measures(
-    machine: DrawnMechanism, wanted: Iterable[Dimension] | bool, index: int
-) -> Iterator[Distance | Angle]:
+def _measures(machine: DrawnMechanism, wanted: Iterable[Dimension] | bool, index: int) -> Iterator[Distance | Angle]:
     if isinstance(wanted, bool):
         for link in ("frame", *machine.motion.mechanism.links) if wanted else ():
             yield from _of_link(machine, link, index)

@@ -108,9 +108,7 @@ def draw(
                 diagonal=diagonal,
             )
         )
-    motion = (
-        source if isinstance(source, Motion) else solve_motion(source, steps=DRAWING_STEPS, failures="mark")
-    )
+    motion = source if isinstance(source, Motion) else solve_motion(source, steps=DRAWING_STEPS, failures="mark")
     shown = _shown(motion, position, at, time)
     ghosts, style = _overlay(motion, overlay)
     scene, index, others = laid_out_with_ghosts(
@@ -128,10 +126,7 @@ def draw(
     sketch.write_wanted_names(labels)
     sketch.legend(arrows, language)
     return sketch.drawing(
-        _("Kinematic drawing of {name}", name=in_language(motion.mechanism.name, language)).translate(
-            language
-        ),
-        size,
+        _("Kinematic drawing of {name}", name=in_language(motion.mechanism.name, language)).translate(language), size
     )
 
 
@@ -191,9 +186,7 @@ class MachineSketch(Sketch):
             below.numbers(mechanism, language)
         if missing := unmarked(self.scene.machine, self.index):
             self.notes.append(
-                _("not drawn, as they name neither a point nor a link: {loads}", loads=tuple(missing)).say(
-                    language
-                )
+                _("not drawn, as they name neither a point nor a link: {loads}", loads=tuple(missing)).say(language)
             )
         for each in arrows:
             if each.empty([self.shown]):
@@ -206,13 +199,7 @@ class MachineSketch(Sketch):
 
 
 def laid_out_with_ghosts(
-    motion: Motion,
-    shown: Shown,
-    ghosts: Sequence[Shown],
-    *,
-    inputs: bool,
-    centres: bool,
-    diagonal: float = DIAGONAL,
+    motion: Motion, shown: Shown, ghosts: Sequence[Shown], *, inputs: bool, centres: bool, diagonal: float = DIAGONAL
 ) -> tuple[Scene, int, list[int]]:
     """The scene of a motion with ghost positions; their indices in the scene."""
     others = [each for each in (shown, *ghosts) if each.motion is not motion]
@@ -302,11 +289,7 @@ def _spread(motion: Motion, count: int) -> list[int]:
 
 
 def all_arrows(
-    motion: Motion,
-    velocities: Names,
-    accelerations: Names,
-    forces: Forces | None,
-    of: Sequence[str] | None,
+    motion: Motion, velocities: Names, accelerations: Names, forces: Forces | None, of: Sequence[str] | None
 ) -> list[Arrows]:
     """All vectors that a drawing shows; each entry has a scale of its own."""
     found: list[Arrows] = []

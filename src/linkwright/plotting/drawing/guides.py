@@ -43,9 +43,7 @@ def travel(machine: DrawnMechanism, name: str) -> tuple[float, float]:
     """Smallest and largest displacement of a block at all positions that are drawn, in units of the paper."""
     joint, link = machine.guides[name], machine.motion.mechanism.link
     guide, block = machine.placed[joint.guide], machine.placed[joint.block]
-    way = block.world(link(joint.block).points[joint.at]) - guide.world(
-        link(joint.guide).points[joint.through]
-    )
+    way = block.world(link(joint.block).points[joint.at]) - guide.world(link(joint.guide).points[joint.through])
     angle = joint.direction
     axis = Placement(np.zeros_like(guide.origin), guide.direction).world((math.cos(angle), math.sin(angle)))
     s = (way * axis).sum(axis=1) * machine.view.scale
@@ -77,13 +75,9 @@ def _cylinder(machine: DrawnMechanism, name: str, joint: SlidingJoint) -> Iterat
     length = max(0.8 * short, min(0.62 * longest, 0.94 * short))
     piston = max(longest - 0.92 * length, short - length + 10.0)
     at = machine.local(joint.guide, joint.through)
-    rod = SYMBOLS["piston"](
-        at=machine.local(joint.block, joint.at), along=block_direction(joint), length=piston
-    )
+    rod = SYMBOLS["piston"](at=machine.local(joint.block, joint.at), along=block_direction(joint), length=piston)
     yield Part("bodies", joint.block, rod)
-    yield Part(
-        "blocks", joint.guide, SYMBOLS["barrel"](at=at, along=direction(machine, joint), length=length)
-    )
+    yield Part("blocks", joint.guide, SYMBOLS["barrel"](at=at, along=direction(machine, joint), length=length))
 
 
 def _block_on_guide(machine: DrawnMechanism, name: str, joint: SlidingJoint) -> Iterator[Part]:
@@ -125,10 +119,12 @@ def ground_side(machine: DrawnMechanism, joint: SlidingJoint) -> int:
     x, y = line_start(machine, joint)
     way = direction(machine, joint)
     right = np.array([-way[1], way[0]])
-    clouds = [machine.view.paper(machine.placed[link].world(p))
-              for link in machine.motion.mechanism.links
-              if link != joint.block
-              for p in machine.motion.mechanism.links[link].points.values()]  # fmt: skip
+    clouds = [
+        machine.view.paper(machine.placed[link].world(p))
+        for link in machine.motion.mechanism.links
+        if link != joint.block
+        for p in machine.motion.mechanism.links[link].points.values()
+    ]
     everything = np.concatenate(clouds) if clouds else np.zeros((1, 2))
     mean = float(np.nanmean((everything - (x, y)) @ right))
     if abs(mean) < 4.0:
@@ -155,8 +151,10 @@ def clear_shift(machine: DrawnMechanism, name: str, joint: SlidingJoint) -> floa
     fixed = on_line(points([machine.local("frame", p) for p, links in pins.items() if "frame" in links]))
     if not ((fixed > low - LENGTH / 2) & (fixed < high + LENGTH / 2)).any():
         return 2.2 * LENGTH if _on_other_block(machine, joint) else 0.0
-    moving = [machine.view.paper(machine.placed[links[0]].world(mechanism.link(links[0]).points[p]))
-              for p, links in pins.items()]  # fmt: skip
+    moving = [
+        machine.view.paper(machine.placed[links[0]].world(mechanism.link(links[0]).points[p]))
+        for p, links in pins.items()
+    ]
     return float(np.nanmax(on_line(np.concatenate(moving)))) - low + 0.9 * LENGTH
 
 
@@ -246,8 +244,12 @@ def _slide(machine: DrawnMechanism, driver: Driver, index: int) -> Part:
 def _free_angle(machine: DrawnMechanism, pin: str, index: int) -> float:
     """The direction on the paper in which an arc about a pin is farthest from the links and the support."""
     joint = machine.pins[pin]
-    taken = [math.atan2(way[1], way[0]) + _turned(machine.placed[link], index)
-             for link in joint.links if link != "frame" for way in machine.directions(link, pin)]  # fmt: skip
+    taken = [
+        math.atan2(way[1], way[0]) + _turned(machine.placed[link], index)
+        for link in joint.links
+        if link != "frame"
+        for way in machine.directions(link, pin)
+    ]
     if "frame" in joint.links:
         x, y = support_direction(machine, pin, joint)
         taken.append(math.atan2(y, x))

@@ -82,8 +82,7 @@ def _(joint: GearPair, mechanism: Mechanism, tooth: Teeth) -> Iterable[Mark]:
         return wheels
     turned = _meshing(joint, mechanism, tooth)
     return [
-        replace(mark, turned=turn, teeth=int(z))
-        for mark, turn, z in zip(wheels, turned, joint.teeth, strict=True)
+        replace(mark, turned=turn, teeth=int(z)) for mark, turn, z in zip(wheels, turned, joint.teeth, strict=True)
     ]
 
 

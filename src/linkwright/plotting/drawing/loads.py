@@ -60,9 +60,7 @@ def _held(machine: DrawnMechanism, load: Load, index: int) -> Shape:
 def named_points(machine: DrawnMechanism, load: Load) -> list[LinkPoint]:
     """The points that a load of any kind names in its fields, and those of the joints that it names."""
     joints = [
-        value
-        for _, each, value in load.fields_with_values()
-        if isinstance(each, JointName) and value is not None
+        value for _, each, value in load.fields_with_values() if isinstance(each, JointName) and value is not None
     ]
     return [*load.named_points, *(_joint_point(machine, name) for name in joints)]
 
@@ -106,9 +104,7 @@ def _anchor(machine: DrawnMechanism, end: LinkPoint, first: Vec, last: Vec, inde
     at = machine.paper(end.link, end.point, index)
     other = last if math.dist(at, first) < math.dist(at, last) else first
     length = math.dist(at, other) or 1.0
-    return SYMBOLS["wall"](
-        at=at, toward=((at[0] - other[0]) / length, (at[1] - other[1]) / length), size=12.0
-    )
+    return SYMBOLS["wall"](at=at, toward=((at[0] - other[0]) / length, (at[1] - other[1]) / length), size=12.0)
 
 
 def _push(machine: DrawnMechanism, push: Push, index: int) -> Shape:

@@ -51,9 +51,7 @@ def moved(points: Floats, transform: tuple[float, float, float]) -> Floats:
     """Points of a link's piece of paper on the paper."""
     x, y, turn = transform
     c, s = np.cos(np.radians(turn)), np.sin(np.radians(turn))
-    return np.stack(
-        [x + c * points[:, 0] - s * points[:, 1], y + s * points[:, 0] + c * points[:, 1]], axis=1
-    )
+    return np.stack([x + c * points[:, 0] - s * points[:, 1], y + s * points[:, 0] + c * points[:, 1]], axis=1)
 
 
 def fitted(motion: Motion, placed: Mapping[str, Placement], diagonal: float = DIAGONAL) -> View:
@@ -74,9 +72,7 @@ def fitted(motion: Motion, placed: Mapping[str, Placement], diagonal: float = DI
     low, high = everything.min(axis=0), everything.max(axis=0)
     reach = float(np.hypot(*(high - low))) or 1.0
     scale = diagonal / reach
-    shortest = min(
-        (length for link in mechanism.links.values() for length in _bars(link.points)), default=reach
-    )
+    shortest = min((length for link in mechanism.links.values() for length in _bars(link.points)), default=reach)
     scale *= float(np.clip(SHORTEST_BAR / (shortest * scale), 1.0, 1.6))
     return View(scale)
 
@@ -222,12 +218,7 @@ def _passing(machine: DrawnMechanism, link: str, point: str) -> Floats | None:
 
 def support_direction(machine: DrawnMechanism, point: str, joint: TurningJoint) -> Vec:
     """Direction of the ground under a fixed pivot: down, unless links reach there for most of the motion."""
-    choices: list[tuple[Vec, float]] = [
-        ((0.0, 1.0), 0.0),
-        ((0.0, -1.0), 0.25),
-        ((-1.0, 0.0), 0.3),
-        ((1.0, 0.0), 0.3),
-    ]
+    choices: list[tuple[Vec, float]] = [((0.0, 1.0), 0.0), ((0.0, -1.0), 0.25), ((-1.0, 0.0), 0.3), ((1.0, 0.0), 0.3)]
     reach = [_reaching(machine, link, point) for link in joint.links if link != "frame"]
     ways = np.concatenate([*reach, np.zeros((0, 2))])
 

@@ -136,9 +136,7 @@ class Panel:
 
     def cursor(self, x: float = 0.0) -> Element:
         """The cursor at x."""
-        return element(
-            "line", {"class": "lw-input-line", "x1": x, "x2": x, "y1": self.top, "y2": self.bottom}
-        )
+        return element("line", {"class": "lw-input-line", "x1": x, "x2": x, "y1": self.top, "y2": self.bottom})
 
 
 def panel(
@@ -169,9 +167,7 @@ def _caption(output: Output, values: Floats, ends: tuple[float, float], language
     quantity = output.sentence(alone=alone).say(language) if output.kind in QUANTITIES else output.column
     unit = unit_of(output.dimension, [values])
     low, high = (significant(end * unit.factor) for end in ends)
-    return _("{quantity}: {low} … {high}", quantity=unit.label(quantity), low=low, high=high).translate(
-        language
-    )
+    return _("{quantity}: {low} … {high}", quantity=unit.label(quantity), low=low, high=high).translate(language)
 
 
 def _row(text: str, values: Floats, left: float, span: float, top: float) -> list[SvgNode]:

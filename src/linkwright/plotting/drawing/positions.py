@@ -93,9 +93,7 @@ def frame_indices(motion: Motion, frames: int) -> list[int]:
     if motion.positions.closed and count == motion.steps:
         chosen = np.unique(np.linspace(0, count, min(frames, count) + 1).round().astype(int)) % count
         return [int(k) for k in chosen]
-    way = np.unique(
-        np.linspace(start, stop - 1, min(max(frames // 2, 2), count)).round().astype(int)
-    ).tolist()
+    way = np.unique(np.linspace(start, stop - 1, min(max(frames // 2, 2), count)).round().astype(int)).tolist()
     there_and_back = [*way, *way[-2::-1]]
     return there_and_back if len(there_and_back) > 1 else [start, start]
 
@@ -119,13 +117,10 @@ def parting(machine: DrawnMechanism, run: list[int]) -> float:
 
     Shift and turn of each link change evenly from one keyframe to the next, so its pins run along flat arcs.
     """
-    largest = max(
-        (_distance_from_guide(machine, joint, run) for joint in machine.guides.values()), default=0.0
-    )
+    largest = max((_distance_from_guide(machine, joint, run) for joint in machine.guides.values()), default=0.0)
     for name, joint in machine.pins.items():
         places = [
-            _half_way(machine, link, machine.motion.mechanism.link(link).points[name], run)
-            for link in joint.links
+            _half_way(machine, link, machine.motion.mechanism.link(link).points[name], run) for link in joint.links
         ]
         for other in places[1:]:
             largest = max(largest, float(np.hypot(*(other - places[0]).T).max(initial=0.0)))
@@ -171,9 +166,6 @@ def _longest_stretch(ok: np.ndarray) -> tuple[int, int]:
     runs = [(int(a), int(b)) for a, b in zip(edges[::2], edges[1::2], strict=True)]
     if not runs:
         raise LinkwrightError(
-            _(
-                "no position of the motion was reached, so there is nothing to show",
-                code="picture.nothing_reached",
-            )
+            _("no position of the motion was reached, so there is nothing to show", code="picture.nothing_reached")
         )
     return max(runs, key=lambda run: run[1] - run[0])

@@ -52,11 +52,7 @@ class Scene:
         """The elements of the machine at one position."""
         links = tuple(self.machine.motion.mechanism.links)
         return [
-            group(
-                (e for p in parts for e in p.shape.elements),
-                f"lw-{layer}",
-                transform=self._transform(link, index),
-            )
+            group((e for p in parts for e in p.shape.elements), f"lw-{layer}", transform=self._transform(link, index))
             for layer, link, parts in self.layered(links if moving_only else None)
             if not (moving_only and layer == "marks")
         ]
@@ -166,8 +162,13 @@ def link_labels(scene: Scene, index: int) -> Iterator[Label]:
 def _middle_of_ink(scene: Scene, link: str, cloud: Floats) -> Floats:
     """The middle of what is drawn of a link that has one point only."""
     layers = ("blocks", "bodies")
-    ink = [line for layer in layers for p in scene.parts if p.carrier == link and p.layer == layer
-           for line in p.shape.ink]  # fmt: skip
+    ink = [
+        line
+        for layer in layers
+        for p in scene.parts
+        if p.carrier == link and p.layer == layer
+        for line in p.shape.ink
+    ]
     if not ink:
         return cloud
     everything = np.concatenate(ink)

@@ -158,9 +158,7 @@ class Torques(Family):
         for name, (stem, low) in self.symbols.items():
             if self.nonzero(name, [index]):
                 place = (vec(view.paper(self.places[name][index])),)
-                found.append(
-                    Label(stem, place, f"{self.style}-name", NAME_SIZE, self.clear, False, index=low)
-                )
+                found.append(Label(stem, place, f"{self.style}-name", NAME_SIZE, self.clear, False, index=low))
         return found
 
     def _arc(self, name: str, index: int, view: View) -> Shape:
@@ -201,9 +199,7 @@ class Arrows:
                 track = family.track(name, view, scale)
                 if family.nonzero(name, run) and np.isfinite(track[list(run)]).all():
                     place = (vec(track[run[0]]),)
-                    label = Label(
-                        stem, place, f"{family.style}-name", NAME_SIZE, family.clear, False, index=low
-                    )
+                    label = Label(stem, place, f"{family.style}-name", NAME_SIZE, family.clear, False, index=low)
                     found.append((label, track))
         return found
 
@@ -240,9 +236,7 @@ def point_vectors(motion: Motion, names: Iterable[str], kind: str) -> Arrows:
     unit, letter = {"velocity": ("m/s", "v"), "acceleration": ("m/s²", "a")}[kind]
     found = {name: motion.point(name) for name in names}
     feet = {name: each.position for name, each in found.items()}
-    values = {
-        name: each.velocity if kind == "velocity" else each.acceleration for name, each in found.items()
-    }
+    values = {name: each.velocity if kind == "velocity" else each.acceleration for name, each in found.items()}
     short = Counter(name.rpartition(".")[2] for name in all_points(motion.mechanism))
     symbols = {}
     for name in found:
@@ -407,9 +401,7 @@ def _drivers(forces: Forces) -> tuple[Vectors, Torques]:
             turns[name] = effort
     return (
         Vectors("driver", "N", feet, pushes, {name: ("F", name if several else "d") for name in pushes}),
-        Torques(
-            "driver", feet, turns, {name: ("T", name if several else "") for name in turns}, DRIVER_RADIUS
-        ),
+        Torques("driver", feet, turns, {name: ("T", name if several else "") for name in turns}, DRIVER_RADIUS),
     )
 
 

@@ -119,9 +119,7 @@ class _Writer:
                 jump=NEXT if moves else "end",
                 down=self.say(_("yes")),
                 across=self.say(_("no")),
-                aside=self.say(
-                    _("Report: position i is not reached") if moves else _("Report: not assembled")
-                ),
+                aside=self.say(_("Report: position i is not reached") if moves else _("Report: not assembled")),
             )
         yield from self._further()
         if self.mechanism.has_loads:
@@ -142,9 +140,7 @@ class _Writer:
         if any(isinstance(joint, CamJoint) for joint in mechanism.joints.values()):
             parts.append(say(_("motion programs of the cams")))
         if mechanism.drivers:
-            parts.append(
-                say(_("laws of the drivers") if len(mechanism.drivers) > 1 else _("law of the driver"))
-            )
+            parts.append(say(_("laws of the drivers") if len(mechanism.drivers) > 1 else _("law of the driver")))
         if any(dyad_shape(group) for group in self.groups):
             parts.append(say(_("assembly modes")))
         if mechanism.has_loads:
@@ -159,12 +155,7 @@ class _Writer:
             say(_("{symbol} = {values}", symbol=loop.symbol, values=say(_(", ")).join(self._values())))
             if step is None
             else say(
-                _(
-                    "{symbol} = {first}; Δ{symbol} = {step}",
-                    symbol=loop.symbol,
-                    first=first,
-                    step=loop.text(step),
-                )
+                _("{symbol} = {first}; Δ{symbol} = {step}", symbol=loop.symbol, first=first, step=loop.text(step))
             )
         )
         return Node("preparation", (say(_("i = 1; N = {count}", count=count)), line, self._meaning()))
@@ -300,11 +291,7 @@ class _Writer:
         if parts:
             yield Node(
                 "call",
-                (
-                    self.say(
-                        _("Further points by link angle and base point: {points}", points=self._listed(parts))
-                    ),
-                ),
+                (self.say(_("Further points by link angle and base point: {points}", points=self._listed(parts))),),
                 "bark",
             )
 
@@ -325,11 +312,7 @@ class _Writer:
             yield self._forces_of(group, FORCES if not number and rubbing else "")
         if rubbing:
             yield Node(
-                "decision",
-                (say(_("Friction settled?")),),
-                jump=FORCES,
-                down=say(_("yes")),
-                across=say(_("no")),
+                "decision", (say(_("Friction settled?")),), jump=FORCES, down=say(_("yes")), across=say(_("no"))
             )
         yield Node(
             "process",
@@ -355,20 +338,14 @@ class _Writer:
         say, mechanism = self.say, self.mechanism
         joints = dict.fromkeys(c.joint for c in (*group.inner_joints, *group.outer_joints))
         alone = not group.unknowns and bool(group.drivers)
-        heading = (
-            say(_("driven link {link}", link=self._numbered(group.links))) if alone else self._heading(group)
-        )
+        heading = say(_("driven link {link}", link=self._numbered(group.links))) if alone else self._heading(group)
         lines = [heading, say(_("forces at {joints}", joints=self._listed(joints)))]
         for driver in group.drivers:
             turns = mechanism.joints[mechanism.drivers[driver].joint].coordinate == "turn"
             letter = "M" if turns else "F"
             symbol = f"{letter}_d" if len(mechanism.drivers) == 1 else f"{letter}_d,{driver}"
             lines.append(
-                say(
-                    (_("balancing torque {symbol}") if turns else _("driving force {symbol}")).format(
-                        symbol=symbol
-                    )
-                )
+                say((_("balancing torque {symbol}") if turns else _("driving force {symbol}")).format(symbol=symbol))
             )
         call = self._call(group, "f")
         if alone and len(group.links) == 1:
@@ -381,9 +358,7 @@ class _Writer:
     def _printed(self) -> Node:
         say, mechanism = self.say, self.mechanism
         parts = [self._over.symbol] if mechanism.drivers else []
-        parts.append(
-            say(_("angles, points and their rates") if mechanism.drivers else _("angles and points"))
-        )
+        parts.append(say(_("angles, points and their rates") if mechanism.drivers else _("angles and points")))
         if mechanism.has_loads:
             parts.append(say(_("joint forces")))
             parts += dict.fromkeys("M_d" if turns else "F_d" for turns in self._efforts())
@@ -396,11 +371,7 @@ class _Writer:
 
     def _stepped(self) -> Iterator[Node]:
         say, symbol = self.say, self._over.symbol
-        key = (
-            _("i = i + 1; next {symbol}")
-            if self._step is None
-            else _("i = i + 1; {symbol} = {symbol} + Δ{symbol}")
-        )
+        key = _("i = i + 1; next {symbol}") if self._step is None else _("i = i + 1; {symbol} = {symbol} + Δ{symbol}")
         yield Node("process", (say(key.format(symbol=symbol)),), name=NEXT)
         yield Node("decision", (say(_("i > N?")),), jump=LOOP, down=say(_("yes")), across=say(_("no")))
         yield Node("data", (say(_("Peak values, limit positions, diagrams")),))
@@ -411,9 +382,7 @@ class _Writer:
         return self.say(key.format(signature=group.signature, links=self._numbered(group.links)))
 
     def _numbered(self, links: Sequence[str]) -> str:
-        return self.say(_(", ")).join(
-            f"{self.numbers[name]} {link_label(name, self.language)}" for name in links
-        )
+        return self.say(_(", ")).join(f"{self.numbers[name]} {link_label(name, self.language)}" for name in links)
 
     def _points_of(self, links: Sequence[str]) -> list[str]:
         """Joints on links, each once, those of the frame left out."""

@@ -277,9 +277,7 @@ class _Chart:
         line = np.array([(lane, box.bottom), (lane, y1)])
         self._connected(source, target, line, (lane, y1 + RADIUS), 1.0)
 
-    def _connected(
-        self, source: _Seat, target: _Seat, line: Floats, place: tuple[float, float], side: float
-    ) -> None:
+    def _connected(self, source: _Seat, target: _Seat, line: Floats, place: tuple[float, float], side: float) -> None:
         """A line to a connector, and the connector at the side of the target's entry."""
         letter, (x1, y1) = next(self.letters), target.entry
         self.sheets[source.page].lines.append(Line(line))

@@ -20,9 +20,7 @@ MILLIMETRE = 0.23
 TALLEST, COLUMNS = 205.0, 2
 
 
-def flow_chart_pages(
-    nodes: Sequence[Node], title: str, *, columns: int = COLUMNS, heading: str = ""
-) -> list[str]:
+def flow_chart_pages(nodes: Sequence[Node], title: str, *, columns: int = COLUMNS, heading: str = "") -> list[str]:
     """SVG text of every page, to be printed in its own size; ``columns`` on a page, ``heading`` above."""
     sheets = laid_out(nodes, TALLEST / MILLIMETRE, columns)
     return [_document(sheet, title, heading) for sheet in sheets]
@@ -31,9 +29,7 @@ def flow_chart_pages(
 def _document(sheet: Page, title: str, heading: str) -> str:
     wide, tall = sheet.size
     left = min(float(line.corners[:, 0].min()) for line in sheet.lines)
-    left = min(
-        left, *(box.corners[0] for box in sheet.boxes), *(x - RADIUS for x, _, _ in sheet.circles), wide
-    )
+    left = min(left, *(box.corners[0] for box in sheet.boxes), *(x - RADIUS for x, _, _ in sheet.circles), wide)
     content = [each for part in (_lines(sheet), _boxes(sheet), _marks(sheet)) for each in part]
     top = 0.0
     if heading:
@@ -73,13 +69,17 @@ def _outline(box: Box) -> Iterator[SvgNode]:
             yield Line(points(lean), "lw-flow", closed=True)
         case "preparation":
             tip = min(LEAN, box.half_height)
-            hexagon = [(left - tip + LEAN / 2, box.y), (left + LEAN / 2, top), (right - LEAN / 2, top),
-                       (right + tip - LEAN / 2, box.y), (right - LEAN / 2, bottom),
-                       (left + LEAN / 2, bottom)]  # fmt: skip
+            hexagon = [
+                (left - tip + LEAN / 2, box.y),
+                (left + LEAN / 2, top),
+                (right - LEAN / 2, top),
+                (right + tip - LEAN / 2, box.y),
+                (right - LEAN / 2, bottom),
+                (left + LEAN / 2, bottom),
+            ]
             yield Line(points(hexagon), "lw-flow", closed=True)
         case "decision":
-            yield Line(points([(left, box.y), (box.x, top), (right, box.y), (box.x, bottom)]), "lw-flow",
-                       closed=True)  # fmt: skip
+            yield Line(points([(left, box.y), (box.x, top), (right, box.y), (box.x, bottom)]), "lw-flow", closed=True)
         case _:
             yield _rectangle(box)
             if box.shape == "call":

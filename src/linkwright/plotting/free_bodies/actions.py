@@ -103,9 +103,7 @@ def free_bodies(forces: Forces, index: int) -> list[FreeBody]:
     drawn = []
     for body in found:
         actions = tuple(
-            a
-            for a in body.actions
-            if (abs(a.torque) > torque_threshold if a.couple else a.size > force_threshold)
+            a for a in body.actions if (abs(a.torque) > torque_threshold if a.couple else a.size > force_threshold)
         )
         if actions:
             drawn.append(FreeBody(body.link, body.number, body.centre, actions))
@@ -150,9 +148,7 @@ def _applied(forces: Forces, link: str, index: int, applied: Sequence[AppliedWre
     own = [each for each in applied if each.link == link]
     count = Counter(each.name for each in own)
     for number, each in enumerate(own, 1):
-        rubbing = (
-            "".join(owners_of("friction", [each.name])) if each.name not in forces.mechanism.loads else ""
-        )
+        rubbing = "".join(owners_of("friction", [each.name])) if each.name not in forces.mechanism.loads else ""
         role = "friction" if rubbing else "load"
         name = f"{each.name}_{number}" if count[each.name] > 1 else each.name
         force, place = np.array(each.force), np.array(each.place)

@@ -18,14 +18,7 @@ from linkwright.pictures.svg.element import fold
 from linkwright.plotting.diagrams.scaled_page import page
 from linkwright.plotting.drawing.vectors import with_unit
 from linkwright.plotting.free_bodies.actions import STYLES, Action, FreeBody, free_bodies
-from linkwright.plotting.free_bodies.picture import (
-    MILLIMETRE,
-    SHORT,
-    STUB,
-    BodySketch,
-    LinkShapes,
-    body_sketch,
-)
+from linkwright.plotting.free_bodies.picture import MILLIMETRE, SHORT, STUB, BodySketch, LinkShapes, body_sketch
 from linkwright.words import Translate, _, pgettext
 from linkwright.words.sentence import link_label
 
@@ -87,9 +80,7 @@ def free_body_pages(
     """
     bodies = [body for body in free_bodies(forces, index) if not of or body.link in of]
     if not bodies:
-        raise LinkwrightError(
-            _("no forces act on the moving links at this position", code="free_bodies.none")
-        )
+        raise LinkwrightError(_("no forces act on the moving links at this position", code="free_bodies.none"))
     shapes = LinkShapes(forces.motion, index)
     reach = max(shapes.reach(body.link) for body in bodies) or 1.0
     usual = round_up(reach / 46.0, GRAPHICAL)
@@ -128,12 +119,7 @@ def _table(found: Sketch, body: FreeBody, say: Translate, y: float) -> float:
         for each in body.forces:
             x_part, y_part = (float(part) * factor for part in each.force)
             angle = math.degrees(math.atan2(y_part, x_part)) % 360.0
-            cells = (
-                fixed(x_part, place),
-                fixed(y_part, place),
-                fixed(each.size * factor, place),
-                f"{angle:.2f}",
-            )
+            cells = (fixed(x_part, place), fixed(y_part, place), fixed(each.size * factor, place), f"{angle:.2f}")
             y = _row(found, y, each, cells)
         total = np.sum([each.force for each in body.forces], axis=0) * factor
         y = _line(found, y, say(_("sum")), tuple(fixed(float(part), place) for part in total))

@@ -86,9 +86,7 @@ def arranged(actions: Sequence[Action], view: View, per_newton: float, body: Seq
         place = np.asarray(view.paper(action.place))
         options = list(_options(action, place, per_newton))
         costs = [
-            0.02 * moved
-            + _covered(each, link, 1.0)
-            + sum(_covered(each, _sampled([o.ink]), 4.0) for o in chosen)
+            0.02 * moved + _covered(each, link, 1.0) + sum(_covered(each, _sampled([o.ink]), 4.0) for o in chosen)
             for each, moved in options
         ]
         chosen.append(options[int(np.argmin(costs))][0])
@@ -147,9 +145,7 @@ def arcs(couples: Sequence[Action], view: View) -> tuple[list[SvgNode], list[Flo
 
 
 #: Longest link and longest arrow, mm: the first pair with which a picture fits its place is taken, the last at most.
-SIZES = (
-    (46.0, 28.0), (38.0, 25.0), (31.0, 22.0), (25.0, 18.0), (20.0, 14.0), (16.0, 11.0), (12.0, 8.0), (7.0, 6.0),
-)  # fmt: skip
+SIZES = ((46.0, 28.0), (38.0, 25.0), (31.0, 22.0), (25.0, 18.0), (20.0, 14.0), (16.0, 11.0), (12.0, 8.0), (7.0, 6.0))
 #: Millimetres of the complete machine where sizes are read off a drawing of it.
 FINE = 400.0
 
@@ -196,9 +192,7 @@ class LinkShapes:
     def _extent(self) -> float:
         """The longer side of all points in their position, m."""
         links = self.motion.mechanism.links.values()
-        places = [
-            self._placed[link.name].world(at)[self.index] for link in links for at in link.points.values()
-        ]
+        places = [self._placed[link.name].world(at)[self.index] for link in links for at in link.points.values()]
         return float(np.ptp(np.array(places), axis=0).max()) or 1.0
 
 

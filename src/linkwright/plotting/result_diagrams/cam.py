@@ -56,8 +56,7 @@ def draw_cam_checks(result: CamDesign, request: Request) -> Figure:
     panels.append(Panel(request.say(_("radius of curvature ρ")), "length", (Curve("", bent),)))
     if result.loaded and result.cam.barrel_radius is None:
         force, torque = (
-            _peaks(extreme("max"), extreme("min"))
-            for extreme in (result.extreme_force, result.extreme_torque)
+            _peaks(extreme("max"), extreme("min")) for extreme in (result.extreme_force, result.extreme_torque)
         )
         panels.append(
             Panel(request.say(_("contact force N")), "force", (Curve("", result.contact_force, marks=force),))

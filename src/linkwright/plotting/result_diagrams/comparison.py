@@ -22,13 +22,7 @@ from linkwright.plotting.diagrams.marks import Curve
 from linkwright.plotting.diagrams.panels import Panel, look, stacked
 from linkwright.plotting.diagrams.source import PlotInput
 from linkwright.plotting.diagrams.sva import ANGULAR, STRAIGHT
-from linkwright.plotting.result_diagrams.design_space import (
-    DesignTable,
-    chosen,
-    draw_designs,
-    measure,
-    varied,
-)
+from linkwright.plotting.result_diagrams.design_space import DesignTable, chosen, draw_designs, measure, varied
 from linkwright.registry import offered
 from linkwright.words import Translate, _
 
@@ -52,16 +46,12 @@ def draw_comparison(result: Comparison, request: Request) -> Figure:
     sources = {each.label: PlotInput(each.motion) for each in result.alternatives}
     axis = _axis(sources, request.say)
     panels = [
-        panel
-        for overlay in _chosen(result, request.of)
-        for panel in _panels(result, overlay, sources, request)
+        panel for overlay in _chosen(result, request.of) for panel in _panels(result, overlay, sources, request)
     ]
     return stacked(panels, axis, request, " – ".join(result.labels))
 
 
-@result_diagram(
-    "pivot_hodograph", _("hodographs of the reaction at the output's pivot"), Comparison, usual=False
-)
+@result_diagram("pivot_hodograph", _("hodographs of the reaction at the output's pivot"), Comparison, usual=False)
 def draw_pivot_hodograph(result: Comparison, request: Request) -> Figure:
     """Hodographs of the reaction at the output's pivot, all alternatives from one origin, in the frame's axes."""
     overlay = next((each for each in result.curves if each.name == HODOGRAPH), None)
@@ -122,9 +112,7 @@ def _passed(source: PlotInput) -> Floats:
     return np.asarray(np.abs(source.input - source.input[0]))
 
 
-def _panels(
-    result: Comparison, overlay: Overlay, sources: Mapping[str, PlotInput], request: Request
-) -> list[Panel]:
+def _panels(result: Comparison, overlay: Overlay, sources: Mapping[str, PlotInput], request: Request) -> list[Panel]:
     """One panel for a quantity; two where some outputs turn and others slide."""
     looks = {label: look(n) for n, label in enumerate(result.labels)}
     kinds = _MOTION.get(overlay.name)
@@ -143,12 +131,7 @@ def _panels(
 
 
 def _curve(
-    overlay: Overlay,
-    label: str,
-    source: PlotInput,
-    looks: Mapping[str, tuple[str, str]],
-    *,
-    turns: bool = False,
+    overlay: Overlay, label: str, source: PlotInput, looks: Mapping[str, tuple[str, str]], *, turns: bool = False
 ) -> Curve:
     """The curve of one alternative up to the end of its cycle; ``turns``: it is an angle."""
     values = source.closed(overlay.lines[label][1], turns=turns)
@@ -235,9 +218,17 @@ def _limit(axes: Axes, place: float, better: str | None, request: Request, legen
 
 
 def _number(axes: Axes, value: float, place: float, unit: Unit) -> None:
-    axes.annotate(unit.text(value), (value * unit.factor, place), (6 if value >= 0 else -6, 0),
-                  textcoords="offset points", ha="left" if value >= 0 else "right", va="center", fontsize=7.5,
-                  annotation_clip=False, zorder=5)  # fmt: skip
+    axes.annotate(
+        unit.text(value),
+        (value * unit.factor, place),
+        (6 if value >= 0 else -6, 0),
+        textcoords="offset points",
+        ha="left" if value >= 0 else "right",
+        va="center",
+        fontsize=7.5,
+        annotation_clip=False,
+        zorder=5,
+    )
 
 
 @result_diagram("study", _("parameter study"), Study, options=("of",))
@@ -247,8 +238,7 @@ def draw_study(result: Study, request: Request) -> Figure:
     Designs that cannot move are crossed, the best ones ringed. ``of``: the metrics, all by default.
     """
     over = tuple(
-        varied(result.mechanism, each.address, result.varied[each.address], each.unit)
-        for each in result.ranges
+        varied(result.mechanism, each.address, result.varied[each.address], each.unit) for each in result.ranges
     )
     measures = tuple(
         measure(

@@ -36,10 +36,7 @@ def draw_designs(table: DesignTable, request: Request) -> Figure:
     """
     if not table.moving:
         raise RequestError(
-            _(
-                "all designs are the same, so there is nothing to draw; vary a dimension",
-                code="picture.same_designs",
-            )
+            _("all designs are the same, so there is nothing to draw; vary a dimension", code="picture.same_designs")
         )
     legend = Legend()
     if len(table.moving) == 1:
@@ -77,9 +74,7 @@ def _ground(axes: Axes, values: Floats, label: str, between: str) -> None:
     good = values[np.isfinite(values)]
     if len(good):
         low, high = float(good.min()), float(good.max())
-        room = (
-            0.14 * (high - low) if high - low > 1e-9 * max(abs(low), abs(high)) else max(0.1 * abs(high), 1.0)
-        )
+        room = 0.14 * (high - low) if high - low > 1e-9 * max(abs(low), abs(high)) else max(0.1 * abs(high), 1.0)
         axes.set_ylim(low - room, high + room)
     axes.set_ylabel(label.replace(" (", f"{between}(") if label.endswith(")") else label)
 
@@ -91,8 +86,16 @@ def _failed(axes: Axes, x: Floats, legend: Legend, request: Request) -> None:
     many = len(x) > RUG
     if many:
         x = np.unique(np.round((x - x.min()) / (np.ptp(x) or 1.0) * RUG)) / RUG * np.ptp(x) + x.min()
-    (line,) = axes.plot(x, np.full(len(x), 0.02), "|" if many else "x", color=FAILED, markersize=4.5,
-                        transform=axes.get_xaxis_transform(), clip_on=False, zorder=4)  # fmt: skip
+    (line,) = axes.plot(
+        x,
+        np.full(len(x), 0.02),
+        "|" if many else "x",
+        color=FAILED,
+        markersize=4.5,
+        transform=axes.get_xaxis_transform(),
+        clip_on=False,
+        zorder=4,
+    )
     legend.add(request.say(_("design fails")), line)
 
 
@@ -109,9 +112,7 @@ def _over_two(table: DesignTable, request: Request, legend: Legend) -> Figure:
     count = len(table.measures)
     columns = min(count, 2)
     rows = -(-count // columns)
-    figure = new_figure(
-        request.size or ((6.4, 4.7) if count == 1 else (5.0 * columns + 0.4, 0.8 + 3.7 * rows))
-    )
+    figure = new_figure(request.size or ((6.4, 4.7) if count == 1 else (5.0 * columns + 0.4, 0.8 + 3.7 * rows)))
     places = figure.subplots(rows, columns, squeeze=False).ravel()
     order = np.lexsort((across.values, up.values))
     shape = (len(up.steps), len(across.steps))
@@ -123,8 +124,15 @@ def _over_two(table: DesignTable, request: Request, legend: Legend) -> Figure:
             legend.add(request.say(_("design fails")), line)
         if request.marks and measure.best is not None:
             place = (across.values[measure.best], up.values[measure.best])
-            (ring,) = one.plot(*[[each] for each in place], "o", color=COLOURS[1], markersize=8,
-                               fillstyle="none", markeredgewidth=1.8, zorder=5)  # fmt: skip
+            (ring,) = one.plot(
+                *[[each] for each in place],
+                "o",
+                color=COLOURS[1],
+                markersize=8,
+                fillstyle="none",
+                markeredgewidth=1.8,
+                zorder=5,
+            )
             legend.add(request.say(_("best")), ring)
         one.set_xlabel(across.label)
         one.set_ylabel(up.label)
@@ -135,9 +143,7 @@ def _over_two(table: DesignTable, request: Request, legend: Legend) -> Figure:
 
 def _map(axes: Axes, x: Floats, y: Floats, values: Floats, measure: Column) -> None:
     shown = np.ma.masked_invalid(values)
-    mesh: Any = axes.pcolormesh(
-        x, y, shown, shading="nearest", cmap="viridis", linewidth=0.2, edgecolors="face"
-    )
+    mesh: Any = axes.pcolormesh(x, y, shown, shading="nearest", cmap="viridis", linewidth=0.2, edgecolors="face")
     axes.grid(False)
     figure = axes.get_figure()
     assert figure is not None
@@ -180,8 +186,7 @@ def _cloud(axes: Axes, over: Column, measure: Column) -> None:
     if len(x) > CROWD:
         axes.hexbin(x, y, gridsize=48, mincnt=1, bins="log", vmin=0.2, cmap="Blues", linewidths=0.1)
     else:
-        axes.plot(x, y, "o", color=COLOURS[0], markersize=3.0 if len(x) < 400 else 1.6, alpha=0.75,
-                  markeredgewidth=0)  # fmt: skip
+        axes.plot(x, y, "o", color=COLOURS[0], markersize=3.0 if len(x) < 400 else 1.6, alpha=0.75, markeredgewidth=0)
 
 
 @dataclass(frozen=True)

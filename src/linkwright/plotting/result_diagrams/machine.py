@@ -52,9 +52,7 @@ def _curves(names: tuple[str, str], values: list[Floats]) -> tuple[Curve, ...]:
     return tuple(Curve(name, each, "", COLOURS[n], DASHES[n]) for n, (name, each) in pairs)
 
 
-def _hodograph(
-    axes: Axes, loops: list[Floats], names: tuple[str, str], request: Request, legend: Legend
-) -> None:
+def _hodograph(axes: Axes, loops: list[Floats], names: tuple[str, str], request: Request, legend: Legend) -> None:
     unit = unit_of("force", loops)
     widest = max(map(largest, loops))
     for name, loop, colour, dash in zip(names, loops, COLOURS, DASHES, strict=False):

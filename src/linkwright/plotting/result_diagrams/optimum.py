@@ -40,9 +40,9 @@ def draw_optimisation(result: Optimum, request: Request) -> Figure:
         _progress(axes[0], result, request.language)
     for one, goal in zip(axes, goals[1:], strict=False):
         _front(one, result, goal.text, request.language)
-    title = _(
-        "Optimisation of {name}", name=in_language(result.problem.mechanism.name, request.language)
-    ).translate(request.language)
+    title = _("Optimisation of {name}", name=in_language(result.problem.mechanism.name, request.language)).translate(
+        request.language
+    )
     figure.suptitle(title if request.title is None else request.title)
     return figure
 
@@ -82,11 +82,7 @@ def _progress(axes: Any, result: Optimum, language: str) -> None:
     axes.step(generations, history, where="post", color=COLOURS[0], label=caption)
     best = result.best.numbers[goal.text] * factor
     axes.plot(
-        [len(result.history)],
-        [best],
-        "o",
-        color=COLOURS[1],
-        label=_("after the last steps").translate(language),
+        [len(result.history)], [best], "o", color=COLOURS[1], label=_("after the last steps").translate(language)
     )
     if np.isfinite(result.start[goal.text]):
         start = result.start[goal.text] * factor
@@ -102,8 +98,9 @@ def _progress(axes: Any, result: Optimum, language: str) -> None:
 _STEPS = {"length": (1e-3, "1 mm"), "angle": (math.radians(1.0), "1°")}
 
 
-@result_diagram("sensitivity", _("relative sensitivities"), Sensitivity, options=("of",),
-                when=lambda result: bool(result.values))  # fmt: skip
+@result_diagram(
+    "sensitivity", _("relative sensitivities"), Sensitivity, options=("of",), when=lambda result: bool(result.values)
+)
 def draw_sensitivity(result: Sensitivity, request: Request) -> Figure:
     """Bars of (p/y)·dy/dp: the change of a summary in percent per percent of a dimension; a colour a summary.
 
@@ -134,8 +131,13 @@ def draw_sensitivity(result: Sensitivity, request: Request) -> Figure:
     return framed(figure, request.titled(result.mechanism.name), request, legend)
 
 
-@result_diagram("sensitivity_curves", _("sensitivities over the input"), Sensitivity, options=("of",),
-                when=lambda result: bool(result.curves))  # fmt: skip
+@result_diagram(
+    "sensitivity_curves",
+    _("sensitivities over the input"),
+    Sensitivity,
+    options=("of",),
+    when=lambda result: bool(result.curves),
+)
 def draw_sensitivity_curves(result: Sensitivity, request: Request) -> Figure:
     """Change of an output over the input when a dimension grows by a hundredth: 0.01·p·∂y/∂p; a panel an output.
 
@@ -168,9 +170,7 @@ def _panel(result: Sensitivity, name: str, request: Request) -> Panel:
         label = request.say(_("{dimension} + {step}", dimension=by, step=text))
         values: Floats = step * result.slope(name, by)
         curves.append(Curve(label, values))
-    return Panel(
-        request.say(_("change of {output}", output=name)), result.quantities[name].dimension, tuple(curves)
-    )
+    return Panel(request.say(_("change of {output}", output=name)), result.quantities[name].dimension, tuple(curves))
 
 
 def _step(mechanism: Mechanism, by: str) -> tuple[float, str]:

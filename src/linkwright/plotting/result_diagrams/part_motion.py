@@ -36,10 +36,7 @@ def draw_flight(result: Flight, request: Request) -> Figure:
 def draw_transport(result: Transport, request: Request) -> Figure:
     """Displacement and velocity of the load on the trough over a cycle, and its height where it is thrown."""
     time, position, velocity, height = result.columns().values()
-    panels = [
-        Panel("s", "length", (Curve("", position),)),
-        Panel("v", "velocity", (Curve("", velocity),), fill=True),
-    ]
+    panels = [Panel("s", "length", (Curve("", position),)), Panel("v", "velocity", (Curve("", velocity),), fill=True)]
     if height.any():
         panels.append(Panel("n", "length", (Curve("", height),)))
     return _over_time(time, panels, result.title, request)
@@ -60,11 +57,7 @@ def draw_vibration_response(result: Vibration, request: Request) -> Figure:
         size = tuple(map(Curve, names, np.abs(amplitudes.T)))
         turn = tuple(map(Curve, names, np.unwrap(np.angle(amplitudes.T))))
         passed = (Curve("", result.transmissibility(frequency)),)
-        panels = [
-            Panel("|X|", length, size, log=True),
-            Panel("∠X", "angle", turn),
-            Panel("T", "", passed, log=True),
-        ]
+        panels = [Panel("|X|", length, size, log=True), Panel("∠X", "angle", turn), Panel("T", "", passed, log=True)]
         axis = InputAxis("frequency", hertz, request.say(_("frequency")), log=True)
         return stacked(panels, axis, request, request.titled(result.title))
     modes = [f"{f / (2 * math.pi):.4g} Hz" for f in result.frequencies]

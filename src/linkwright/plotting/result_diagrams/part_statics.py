@@ -77,8 +77,7 @@ def draw_body_reactions(result: Reactions, request: Request) -> Drawing:
     sketch, places, scale = on_supports(body, FLAT, BODY)
     arrows = [(f.place[:2], f.vector[:2], "lw-load", name) for name, f in body.forces.items()]
     arrows += [
-        (at[:2], _reaction(result, name), "lw-force", name)
-        for name, at in zip(body.supports, places, strict=False)
+        (at[:2], _reaction(result, name), "lw-force", name) for name, at in zip(body.supports, places, strict=False)
     ]
     largest = max(float(np.hypot(*vector)) for _, vector, *_ in arrows) or 1.0
     for place, vector, style, name in arrows:
@@ -126,9 +125,7 @@ def draw_rotor_balance(result: RotorBalance, request: Request) -> Drawing:
         masses = result.rotor.masses.items()
         sides = [(mass, "", each.product * result.share(name, each.at), "lw-load") for mass, each in masses]
         sides.append(("m·r", "b", -unbalance, "lw-force"))
-        vectors = [
-            Vector(letter, np.array([side.real, side.imag]), style, low) for letter, low, side, style in sides
-        ]
+        vectors = [Vector(letter, np.array([side.real, side.imag]), style, low) for letter, low, side, style in sides]
         title = _("Plane {name}", name=name).translate(request.language)
         cells.append(vector_cell((title,), vectors, "mr", lambda value: f"{significant(value)} kg·m"))
     return _page(cells, result.title, request)
@@ -147,8 +144,12 @@ def _reaction(result: Reactions, support: str) -> Floats:
     return total[:2]
 
 
-PANELS = (("V", "shear [N]", "force"), ("M", "moment [N·m]", "torque"), ("θ", "slope [rad]", "slope"),
-         ("w", "deflection [m]", "length"))  # fmt: skip
+PANELS = (
+    ("V", "shear [N]", "force"),
+    ("M", "moment [N·m]", "torque"),
+    ("θ", "slope [rad]", "slope"),
+    ("w", "deflection [m]", "length"),
+)
 
 
 @result_diagram("beam_line", _("shear force, moment, slope, deflection"), BeamLine)

@@ -24,11 +24,7 @@ from linkwright.words import _, pgettext
 def draw_samples(result: Statistics, request: Request) -> Figure:
     """A histogram of every sample with its fits and limits, and every regression of one variable."""
     lines = [n for n, fitting in result.problem.regressions.items() if len(fitting.on) == 1]
-    used = {
-        n
-        for name in lines
-        for n in (result.problem.regressions[name].y, *result.problem.regressions[name].on)
-    }
+    used = {n for name in lines for n in (result.problem.regressions[name].y, *result.problem.regressions[name].on)}
     names = [name for name in result.problem.samples if name not in used]
     count = max(len(names) + len(lines), 1)
     figure = new_figure(request.size or (7.2, 1.0 + 2.6 * count))
@@ -42,9 +38,7 @@ def draw_samples(result: Statistics, request: Request) -> Figure:
     return framed(figure, request.titled(result.title), request)
 
 
-def _histogram(
-    axes: Axes, result: Statistics, name: str, colours: Mapping[str, str], request: Request
-) -> None:
+def _histogram(axes: Axes, result: Statistics, name: str, colours: Mapping[str, str], request: Request) -> None:
     values, scale = result.problem.values(name), result.scale(name)
     shown = values / scale.factor
     axes.hist(shown, bins="auto", density=True, color=FAINT, alpha=0.4)
@@ -52,8 +46,13 @@ def _histogram(
     span = np.ptp(values) or abs(values[0]) or 1.0
     x = np.linspace(values.min() - 0.3 * span, values.max() + 0.3 * span, 300)
     for number, fit in enumerate(result.fits.get(name, [])):
-        axes.plot(x / scale.factor, fit.density(x) * scale.factor, color=colours[fit.name], label=fit.name,
-                  linestyle=DASHES[number % len(DASHES)])  # fmt: skip
+        axes.plot(
+            x / scale.factor,
+            fit.density(x) * scale.factor,
+            color=colours[fit.name],
+            label=fit.name,
+            linestyle=DASHES[number % len(DASHES)],
+        )
     limits = result.problem.capability.get(name)
     for limit in (limits.lower, limits.upper) if limits else ():
         if limit is not None:
@@ -120,9 +119,7 @@ def _band(axes: Axes, result: Spread, output: str) -> None:
         nominal = result.curve(output)[1] - shift
         for edge in (result.curves[output].low, result.curves[output].high):
             axes.plot(x, (edge - nominal) * shown.factor, color=COLOURS[1], linestyle="--", linewidth=1.0)
-    axes.set(
-        xlabel=turning.label("φ" if result.turning else "s"), ylabel=shown.label(f"Δ {output} ± 3σ", "\n")
-    )
+    axes.set(xlabel=turning.label("φ" if result.turning else "s"), ylabel=shown.label(f"Δ {output} ± 3σ", "\n"))
 
 
 GRID = 241

@@ -20,10 +20,7 @@ SHOWN = 4
 #: What the output of a task's curve is, where it is not that of a function.
 OUTPUTS = {"slider_crank": "place", "toggle": "ratio", "dwell": "angle"}
 #: Curves of the plane, by their names.
-CURVES = {
-    "circle_points": _("circle points"),
-    "centre_points": pgettext("synthesize", "centre points"),
-}
+CURVES = {"circle_points": _("circle points"), "centre_points": pgettext("synthesize", "centre points")}
 #: What a function gives, by its kind: the factor to the unit of its axis, and the label of that.
 AXES = {
     "angle": (float(np.degrees(1.0)), _("output (°)")),
@@ -159,20 +156,21 @@ def draw_coupler_curve(result: CouplerCurve, request: Request) -> Figure:
     if request.marks:
         for name, spots, sign in ((_("double point"), doubles, "o"), (_("cusp"), cusps, "D")):
             if spots:
-                (dots,) = axes.plot(*(np.array(spots).T * unit.factor), sign, color=COLOURS[1], markersize=7,
-                                    fillstyle="none", markeredgewidth=1.4)  # fmt: skip
+                (dots,) = axes.plot(
+                    *(np.array(spots).T * unit.factor),
+                    sign,
+                    color=COLOURS[1],
+                    markersize=7,
+                    fillstyle="none",
+                    markeredgewidth=1.4,
+                )
                 legend.add(request.say(name), dots)
     make_plane(axes, 0.1)
     length, area = unit.text(result.length, 6), unit_of("area").text(result.area, 6)
     return framed(
         figure,
         request.say(
-            _(
-                "coupler curve of {point}, length {length}, area {area}",
-                point=result.point,
-                length=length,
-                area=area,
-            )
+            _("coupler curve of {point}, length {length}, area {area}", point=result.point, length=length, area=area)
         ),
         request,
         legend,

@@ -24,7 +24,7 @@ from linkwright.plotting.diagrams.scaled_page import (
     scale_of_picture,
     scale_title,
     units,
-)  # fmt: skip
+)
 from linkwright.plotting.result_diagrams.synthesis import CURVES
 from linkwright.synthesis.motion_generation.generate import MotionDerivation
 from linkwright.synthesis.requirements.crank_rocker import CrankRockerDerivation, QuickReturnDerivation
@@ -214,8 +214,7 @@ def motion(plane: Construction, d: MotionDerivation, result: Synthesis) -> None:
         curve = points[np.abs(points - middle) <= reach]
         dot = 1e-3 * reach  # points of one curve, each a short stroke
         plane.line(
-            *np.stack([curve, curve + dot, np.full(len(curve), np.nan)], axis=1).ravel(),
-            style=f"lw-{name}-line",
+            *np.stack([curve, curve + dot, np.full(len(curve), np.nan)], axis=1).ravel(), style=f"lw-{name}-line"
         )
     size = AXES * max(result.extent, 1e-9)
     for number, (place, angle) in enumerate(zip(d.p, d.phi, strict=True), 1):
@@ -265,8 +264,14 @@ DRAWN: Mapping[type, Callable[[Construction, Any, Synthesis], None]] = {
 }
 
 
-@result_diagram("construction", _("construction"), Synthesis, usual=False, to_scale=True,
-                when=lambda found: type(found.derivation) in DRAWN)  # fmt: skip
+@result_diagram(
+    "construction",
+    _("construction"),
+    Synthesis,
+    usual=False,
+    to_scale=True,
+    when=lambda found: type(found.derivation) in DRAWN,
+)
 def draw_construction(result: Synthesis, request: Request) -> Drawing:
     """The construction of the first candidate."""
     plane, say = Construction(), request.say

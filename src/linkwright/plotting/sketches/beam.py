@@ -48,8 +48,15 @@ def _support(paper: Sketch, name: str, support: BeamSupport, x: float) -> None:
             roller_support(paper, below)
         case "guided":
             paper.put("slider", at=(x, 0.0), along=(0.0, 1.0), length=34.0, height=14.0)
-            paper.put("ground_guide", at=(x, 0.0), along=(0.0, 1.0), start=-30.0, end=30.0,
-                      side=1 if x < 0.5 * WIDE else -1, height=14.0)  # fmt: skip
+            paper.put(
+                "ground_guide",
+                at=(x, 0.0),
+                along=(0.0, 1.0),
+                start=-30.0,
+                end=30.0,
+                side=1 if x < 0.5 * WIDE else -1,
+                height=14.0,
+            )
         case "spring":
             if support.stiffness or not support.torsional_stiffness:
                 paper.put("spring", start=below, end=(x, HALF + 44.0))
@@ -98,9 +105,7 @@ def _dimensions(paper: Sketch, beam: Beam, scale: float) -> None:
     places = {0.0, beam.length, *beam.hinges, *(each.at for each in beam.supports.values())}
     places |= {each.start for each in beam.steps}
     for load in beam.loads.values():
-        places |= (
-            {load.start, beam.length if load.end is None else load.end} if load.line else {load.at or 0.0}
-        )
+        places |= {load.start, beam.length if load.end is None else load.end} if load.line else {load.at or 0.0}
     ordered = sorted(places)
     distinct = [x for i, x in enumerate(ordered) if i == 0 or x - ordered[i - 1] > 1e-9 * beam.length]
     paper.chain([((x * scale, ROWS[0]), x) for x in distinct], _length, 0.0)

@@ -83,9 +83,7 @@ def _draw_support(
             paper.put("fixed_pivot", at=place, toward=(0.0, 1.0))
             paper.put("pin", at=place)
     elif planar and holds & {"x", "y"}:
-        roller_support(
-            paper, place, (0.0, 1.0) if "y" in holds else (-1.0 if at[0] <= middle[0] else 1.0, 0.0)
-        )
+        roller_support(paper, place, (0.0, 1.0) if "y" in holds else (-1.0 if at[0] <= middle[0] else 1.0, 0.0))
     else:
         for word in sorted(holds):
             _held(paper, word, at, view)

@@ -38,9 +38,7 @@ def draw_forces(system: ForceSystem, language: str) -> Drawing:
     view = projection(*directions, *turning, *(each.place for each in forces.values()))
     places = [each.place @ view for each in forces.values()] or [np.zeros(2)]
     scale = scale_of(places, ROOM, ROOM)
-    largest = max(
-        (float(np.linalg.norm(each.vector)) for each in forces.values() if not each.unknown), default=0.0
-    )
+    largest = max((float(np.linalg.norm(each.vector)) for each in forces.values() if not each.unknown), default=0.0)
     axes(paper, view)
     for name, force in forces.items():
         at = scale * (force.place @ view)

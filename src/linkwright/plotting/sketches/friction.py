@@ -74,8 +74,15 @@ def draw_wedge(wedge: Wedge, language: str) -> Drawing:
     under = [(left, slope(length - left)), (right, slope(length - right))]
     top = min(y for _, y in under) - LOAD
     paper.line([under[0], under[1], (right, top), (left, top)], "lw-block", closed=True)
-    paper.put("ground_guide", at=(0.5 * length, -10.3), along=(1.0, 0.0), start=-0.6 * length, end=0.6 * length,
-              side=1, height=18.0)  # fmt: skip
+    paper.put(
+        "ground_guide",
+        at=(0.5 * length, -10.3),
+        along=(1.0, 0.0),
+        start=-0.6 * length,
+        end=0.6 * length,
+        side=1,
+        height=18.0,
+    )
     wall = [(right + 1.3, min(0.0, under[1][1]) - 10.0), (right + 1.3, top - 14.0)]
     height = 0.5 * abs(wall[0][1] - wall[1][1])
     paper.put("wall", at=(right + 1.3, 0.5 * (wall[0][1] + wall[1][1])), toward=(1.0, 0.0), size=height)

@@ -36,8 +36,9 @@ def draw_system(system: VibratingSystem, language: str) -> Drawing:
     tall = max([HEIGHT, *(ROW * len(bundle) + 6.0 for bundle in bundles.values())])
     for name, mass in system.masses.items():
         x = left[name]
-        paper.line([(x, -tall / 2), (x + WIDTH, -tall / 2), (x + WIDTH, tall / 2), (x, tall / 2)], "lw-block",
-                   closed=True)  # fmt: skip
+        paper.line(
+            [(x, -tall / 2), (x + WIDTH, -tall / 2), (x + WIDTH, tall / 2), (x, tall / 2)], "lw-block", closed=True
+        )
         paper.labels.append(_inside(name, x, -8.0))
         paper.labels.append(_inside(shown(mass, kinds["mass"]), x, 11.0))
     for (first, last), bundle in bundles.items():
@@ -64,9 +65,15 @@ def _ends(tie: Connector, names: Sequence[str]) -> tuple[int, int]:
 
 
 def _bundle(
-    paper: Sketch, first: int, last: int, bundle: Sequence[tuple[str, Connector, str]], left: Mapping[str, float],
-    names: Sequence[str], tall: float, kinds: Mapping[str, str],
-) -> None:  # fmt: skip
+    paper: Sketch,
+    first: int,
+    last: int,
+    bundle: Sequence[tuple[str, Connector, str]],
+    left: Mapping[str, float],
+    names: Sequence[str],
+    tall: float,
+    kinds: Mapping[str, str],
+) -> None:
     """Springs and dampers that join the same two, side by side."""
     count = len(bundle)
     if first == last:
@@ -74,9 +81,7 @@ def _bundle(
         for i, (name, tie, what) in enumerate(bundle):
             spot = x + ROW * 1.4 * (i - (count - 1) / 2)
             paper.put(what, start=(spot, tall / 2), end=(spot, tall / 2 + 62.0))
-            paper.name(
-                _rate(name, tie, what, kinds), (spot, tall / 2 + 31.0), style="lw-value", clearance=12.0
-            )
+            paper.name(_rate(name, tie, what, kinds), (spot, tall / 2 + 31.0), style="lw-value", clearance=12.0)
         paper.put("wall", at=(x, tall / 2 + 62.0), toward=(0.0, 1.0), size=ROW * count)
         return
     start = left[names[first]] + WIDTH if first >= 0 else -GAP
@@ -138,9 +143,7 @@ def draw_follower(follower: FollowerSpring, language: str) -> Drawing:
     if follower.damping_ratio:
         paper.put("damper", start=(16.0, -96.0), end=(16.0, -24.0))
         paper.name(f"ζ = {follower.damping_ratio:.4g}", (24.0, -60.0), style="lw-value", clearance=10.0)
-    paper.name(
-        f"k = {shown(follower.stiffness, 'stiffness')}", (-24.0, -60.0), style="lw-value", clearance=10.0
-    )
+    paper.name(f"k = {shown(follower.stiffness, 'stiffness')}", (-24.0, -60.0), style="lw-value", clearance=10.0)
     paper.line([(-40, -24), (40, -24)], "lw-bar")
     paper.line([(0, -24), (0, 0)], "lw-bar")
     paper.put("roller", at=(0.0, 12.0), radius=12.0)
@@ -163,9 +166,7 @@ RADIUS, SHAFT, BETWEEN = 100.0, 300.0, 110.0
 def draw_rotor(rotor: Rotor, language: str) -> Drawing:
     """Both views to one scale of radii; places along the shaft to their own."""
     paper = Sketch()
-    largest = max(
-        [each.radius for each in rotor.masses.values()] + [each.radius for each in rotor.planes.values()]
-    )
+    largest = max([each.radius for each in rotor.masses.values()] + [each.radius for each in rotor.planes.values()])
     scale = RADIUS / largest
     _along_the_shaft(paper, rotor, scale)
     places = [each.at for each in rotor.masses.values()] + [each.at for each in rotor.planes.values()]

@@ -27,7 +27,7 @@ def blocks(case: ReportContext) -> Iterator[Block]:
         say(
             _(
                 "All results at the numbered positions; $\\Delta P$ and $\\Delta F$ are what is left "
-                "over in the balance of powers and of forces.",
+                "over in the balance of powers and of forces."
             )
         )
     )

@@ -16,9 +16,7 @@ from linkwright.words import _, pgettext
 #: Why steps have no call of their own.
 KINDS = {
     "weld": _("it is fixed to a link solved before"),
-    "slider": _(
-        "its displacement along the guide is given, so p, vp and ap of its points are written at once"
-    ),
+    "slider": _("its displacement along the guide is given, so p, vp and ap of its points are written at once"),
 }
 
 
@@ -38,7 +36,7 @@ def blocks(case: ReportContext) -> Iterator[Block]:
                 "for the motion of the five dyads, barf and rrrf to rppf for their joint forces). "
                 "Points have the numbers n and links the numbers k of the tables below; $p$, $v_p$, "
                 "$a_p$ are the motion of the points, $t$, $w$, $e$ the directions of the links with "
-                "their rates. Lengths in m, angles in rad, 0: not used.",
+                "their rates. Lengths in m, angles in rad, 0: not used."
             )
         )
     )
@@ -108,11 +106,7 @@ def _others(case: ReportContext, made: Calls) -> Iterator[Paragraph]:
         )
     for reason, named in groups.items():
         message = say(
-            _(
-                "No subprogram of these texts for {groups}: {reason}.",
-                groups=say(_(", ")).join(named),
-                reason=reason,
-            )
+            _("No subprogram of these texts for {groups}: {reason}.", groups=say(_(", ")).join(named), reason=reason)
         )
         yield Paragraph(literal(message), "note")
     if made.forces and any(not step.kind for step in made.others):
@@ -120,7 +114,7 @@ def _others(case: ReportContext, made: Calls) -> Iterator[Paragraph]:
             say(
                 _(
                     "What groups without a subprogram exert on the links of the others is not in the "
-                    "calls for the joint forces; it is added as a force at a point (nn).",
+                    "calls for the joint forces; it is added as a force at a point (nn)."
                 )
             ),
             "note",

@@ -21,11 +21,7 @@ from linkwright.reports.section import section
 from linkwright.words import _
 
 #: What a follower touches its cam with.
-TOUCH = {
-    "roller": _("a roller"),
-    "knife": _("an edge"),
-    "flat": _("a flat face"),
-}
+TOUCH = {"roller": _("a roller"), "knife": _("an edge"), "flat": _("a flat face")}
 
 
 @section("cams", _("Cams"), 8.6, optional=True)
@@ -80,12 +76,20 @@ def _program(case: ReportContext, program: MotionProgram, lift_unit: str) -> Blo
     ends = list(itertools.pairwise(program.edges))
     lifts = list(itertools.pairwise(program.lift_at_edges))
     rows: list[list[Cell]] = [
-        [index, *(Amount(each, "angle", bare=True) for each in place),
-         *(Amount(each, kind, bare=True) for each in lift), LABELS.get(law, law)]
+        [
+            index,
+            *(Amount(each, "angle", bare=True) for each in place),
+            *(Amount(each, kind, bare=True) for each in lift),
+            LABELS.get(law, law),
+        ]
         for index, (place, lift, law) in enumerate(zip(ends, lifts, program.law_names, strict=True), 1)
-    ]  # fmt: skip
+    ]
     head = (
-        _("no."), _("from $\\varphi$ / °"), _("to $\\varphi$ / °"), case.say(_("lift from")) + f" / {lift_unit}",
-        case.say(_("lift to")) + f" / {lift_unit}", _("law"),
-    )  # fmt: skip
+        _("no."),
+        _("from $\\varphi$ / °"),
+        _("to $\\varphi$ / °"),
+        case.say(_("lift from")) + f" / {lift_unit}",
+        case.say(_("lift to")) + f" / {lift_unit}",
+        _("law"),
+    )
     return printed(Table(head, rows, ">>>>><", _("Motion program")), case.language)

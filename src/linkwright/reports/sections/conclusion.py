@@ -61,9 +61,7 @@ def blocks(case: ReportContext) -> Iterator[Block]:
     """Motion, transmission of force, limits, forces, flywheel, and what to change."""
     found = list(_Conclusion(case).all())
     if not found:
-        raise Missing(
-            _("there are no results of a motion or of forces to conclude from", code="conclusion.nothing")
-        )
+        raise Missing(_("there are no results of a motion or of forces to conclude from", code="conclusion.nothing"))
     yield from found
 
 
@@ -112,10 +110,7 @@ class _Conclusion:
             yield say(moved.format(subject=literal(row.subject), value=_value(row)))
         for row in self._rows("quick_return_ratio")[:MOST]:
             ratio = (
-                _(
-                    "The slow stroke of {subject} takes {ratio} times as long as the fast one (quick-return "
-                    "ratio K)."
-                )
+                _("The slow stroke of {subject} takes {ratio} times as long as the fast one (quick-return ratio K).")
                 if abs(row.value - 1.0) > 1e-6
                 else _("Both strokes of {subject} take the same time (quick-return ratio K = 1).")
             )
@@ -123,12 +118,7 @@ class _Conclusion:
         for output in main_outputs(self.case.motion)[:MOST]:
             yield from self._rates(output)
         if not self.case.motion.complete:
-            yield say(
-                _(
-                    "The values hold for the part of the input's range in which the machine can be "
-                    "assembled.",
-                )
-            )
+            yield say(_("The values hold for the part of the input's range in which the machine can be assembled."))
 
     def _rates(self, output: Output) -> Iterator[str]:
         """The largest velocity and acceleration of an output or of a point, with their places."""
@@ -141,12 +131,12 @@ class _Conclusion:
             (
                 _(
                     "The angular velocity of {subject} is at most {velocity} (at q = {first}), its "
-                    "angular acceleration at most {acceleration} (at q = {second}).",
+                    "angular acceleration at most {acceleration} (at q = {second})."
                 )
                 if output.kind == "angle"
                 else _(
                     "The velocity of {subject} is at most {velocity} (at q = {first}), its acceleration "
-                    "at most {acceleration} (at q = {second}).",
+                    "at most {acceleration} (at q = {second})."
                 )
             ).format(
                 subject=literal(str(output)),
@@ -178,12 +168,12 @@ class _Conclusion:
                 (
                     _(
                         "Group {subject} comes close to a singular position at q = {at} (distance from it "
-                        "{value}; 1 at best, 0 where singular): forces grow very large there.",
+                        "{value}; 1 at best, 0 where singular): forces grow very large there."
                     )
                     if broken(row)
                     else _(
                         "No group comes close to a singular position: the distance from it is at least "
-                        "{value} (group {subject}, at q = {at}; 1 at best, 0 where singular).",
+                        "{value} (group {subject}, at q = {at}; 1 at best, 0 where singular)."
                     )
                 ).format(**_placeholders(row))
             )
@@ -236,11 +226,7 @@ class _Conclusion:
             yield from self._effort(row)
         for row in self._rows("peak_shaking_force"):
             yield say(
-                _(
-                    "The largest shaking force on the frame is {value} (at q = {at}).",
-                    value=_value(row),
-                    at=_at(row),
-                )
+                _("The largest shaking force on the frame is {value} (at q = {at}).", value=_value(row), at=_at(row))
             )
 
     def _effort(self, peak: MetricValue) -> Iterator[str]:
@@ -263,10 +249,7 @@ class _Conclusion:
         if not small and abs(peak.value) > WORTH * abs(mean):
             ratio = abs(peak.value / mean)
             yield self.say(
-                _(
-                    "The peak is {ratio} times the mean.",
-                    ratio=f"{ratio:.0f}" if ratio >= 100.0 else f"{ratio:.3g}",
-                )
+                _("The peak is {ratio} times the mean.", ratio=f"{ratio:.0f}" if ratio >= 100.0 else f"{ratio:.3g}")
             )
 
     # flywheel ---------------------------------------------------------------------------------
@@ -298,13 +281,10 @@ class _Conclusion:
                 )
             )
             return
-        inertia, formula = (
-            typeset(shown(each, "inertia")) for each in (running.exact_flywheel, running.flywheel)
-        )
+        inertia, formula = (typeset(shown(each, "inertia")) for each in (running.exact_flywheel, running.flywheel))
         yield say(
             _(
-                "For δ = {fluctuation} the input shaft needs a flywheel of {inertia} ({formula} by "
-                "the formula).",
+                "For δ = {fluctuation} the input shaft needs a flywheel of {inertia} ({formula} by the formula).",
                 fluctuation=fluctuation,
                 inertia=inertia,
                 formula=formula,
@@ -321,12 +301,12 @@ class _Conclusion:
                 (
                     _(
                         "Among the link lengths {dimension} has most influence on the {metric}: 1 % {way} "
-                        "would lower it from {value} to about {better}.",
+                        "would lower it from {value} to about {better}."
                     )
                     if each.row.metric == EFFORT
                     else _(
                         "Among the link lengths {dimension} has most influence on the {metric}: 1 % {way} "
-                        "would bring it from {value} to about {better}.",
+                        "would bring it from {value} to about {better}."
                     )
                 ).format(
                     metric=literal(metric),
@@ -348,7 +328,7 @@ class _Conclusion:
             yield self.say(
                 _(
                     "These figures are of first order, from the exact derivatives at the present "
-                    "dimensions; what else is asked of the machine is to be checked anew.",
+                    "dimensions; what else is asked of the machine is to be checked anew."
                 )
             )
 

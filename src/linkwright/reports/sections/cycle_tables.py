@@ -86,16 +86,11 @@ def blocks(case: ReportContext) -> Iterator[Block]:
     if efforts:
         shaking = _of(columns, "shaking_force", "shaking_moment")
         yield from varying(
-            case,
-            _("Driving effort (index d), shaking force and its moment (index S)"),
-            columns,
-            [*efforts, *shaking],
+            case, _("Driving effort (index d), shaking force and its moment (index S)"), columns, [*efforts, *shaking]
         )
 
 
-def _motion_tables(
-    case: ReportContext, columns: Mapping[Output, Floats]
-) -> Iterator[tuple[Message, list[Output]]]:
+def _motion_tables(case: ReportContext, columns: Mapping[Output, Floats]) -> Iterator[tuple[Message, list[Output]]]:
     """Titles and columns: of links that turn, of guides, of outputs that the model names, of points."""
     links = [each for each in columns if KINDS[each.kind].of == "link" and each in case.varying]
     points = [each for each in columns if KINDS[each.kind].of == "point" and each in case.varying]
@@ -123,11 +118,7 @@ def _unreached(case: ReportContext) -> Iterator[Block]:
             reasons.setdefault(outcome.say(case.language), []).append(str(number))
     for reason, numbers in reasons.items():
         message = case.say(
-            _(
-                "No numbers at position {numbers}: {reason}",
-                numbers=case.say(_(", ")).join(numbers),
-                reason=reason,
-            )
+            _("No numbers at position {numbers}: {reason}", numbers=case.say(_(", ")).join(numbers), reason=reason)
         )
         yield Paragraph(literal(message), "missing")
 
@@ -160,9 +151,7 @@ def _equal(case: ReportContext, columns: Mapping[Output, Floats], name: Output) 
     return f"{quantity} = {value} {unit}".replace(" °", "°")
 
 
-def table(
-    case: ReportContext, title: str, columns: Mapping[Output, Floats], names: Sequence[Output]
-) -> Table:
+def table(case: ReportContext, title: str, columns: Mapping[Output, Floats], names: Sequence[Output]) -> Table:
     """Columns at the numbered positions, in shown units."""
     rows = list(case.numbered.rows)
     key, first = leading(case)

@@ -24,8 +24,7 @@ def blocks(case: ReportContext) -> Iterator[Block]:
     yield Paragraph(
         say(
             _(
-                "The machine in the standard symbols is shown in {figure}, at the position that is "
-                "worked out below.",
+                "The machine in the standard symbols is shown in {figure}, at the position that is worked out below.",
                 figure="[[drawing]]",
             )
         )

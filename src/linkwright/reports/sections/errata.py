@@ -26,8 +26,7 @@ def errata_blocks(found: Sequence[Erratum], source: str, say: Translate) -> Iter
     yield Paragraph(
         say(
             _(
-                "The numbers of the source ({source}) were compared with those of this report. Where "
-                "they differ:",
+                "The numbers of the source ({source}) were compared with those of this report. Where they differ:",
                 source=literal(source or "–"),
             )
         )

@@ -22,13 +22,13 @@ def blocks(case: ReportContext) -> Iterator[Block]:
         _(
             "{figure} shows in which order the machine is solved: what each step needs is known "
             "from the steps before it. The calls have the names of the teaching texts (bark, "
-            "rrrk …); i counts the numbered positions.",
+            "rrrk …); i counts the numbered positions."
         )
         if case.mechanism.drivers
         else _(
             "{figure} shows in which order the machine is solved: what each step needs is known "
             "from the steps before it. The calls have the names of the teaching texts (rrrk, "
-            "rrrf …).",
+            "rrrf …)."
         )
     )
     yield Paragraph(say(message.format(figure="[[flow]]")))

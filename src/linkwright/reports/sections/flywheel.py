@@ -45,8 +45,7 @@ def blocks(case: ReportContext) -> Iterator[Block]:
         yield Paragraph(
             say(
                 _(
-                    "The machine's own inertia is enough: it runs more evenly than {most} without a "
-                    "flywheel.",
+                    "The machine's own inertia is enough: it runs more evenly than {most} without a flywheel.",
                     most=f"{running.required:g}",
                 )
             )

@@ -30,20 +30,18 @@ def blocks(case: ReportContext) -> Iterator[Block]:
         _(
             "{figure} shows every link by itself, in its position at {place}, with all that acts on "
             "it; the links come in the order of the force analysis. A joint force F with the "
-            "index 12 is what link 1 exerts on link 2.",
+            "index 12 is what link 1 exerts on link 2."
         )
         if place
         else _(
             "{figure} shows every link by itself with all that acts on it; the links come in the "
             "order of the force analysis. A joint force F with the index 12 is what link 1 "
-            "exerts on link 2.",
+            "exerts on link 2."
         )
     )
     yield Paragraph(say(message.format(figure="[[free-bodies]]", place=place)))
     if idle := idle_loads(forces, index):
-        yield Paragraph(
-            literal(say(_("Not acting at this position: {names}.", names=", ".join(idle)))), "note"
-        )
+        yield Paragraph(literal(say(_("Not acting at this position: {names}.", names=", ".join(idle)))), "note")
     caption = say(_("Free-body diagrams of the links"))
     for number, svg in enumerate(pages, 1):
         shown = (

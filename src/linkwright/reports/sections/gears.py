@@ -34,7 +34,7 @@ def blocks(case: ReportContext) -> Iterator[Block]:
             _(
                 "$z$: numbers of teeth, $m$: module, $r$: pitch radii, $a$: centre distance, "
                 "$\\alpha$: pressure angle, $i$: ratio of the second wheel to the first with the "
-                "carrier stopped.",
+                "carrier stopped."
             )
         )
     )
@@ -47,17 +47,7 @@ def blocks(case: ReportContext) -> Iterator[Block]:
 
 def _sizes(case: ReportContext, pairs: Mapping[str, WheelSizes]) -> Block:
     rows = [_row(case, name, sizes) for name, sizes in pairs.items()]
-    head = (
-        _("joint"),
-        _("kind"),
-        _("wheels"),
-        "$z$",
-        "$m$ / mm",
-        "$r$ / mm",
-        "$a$ / mm",
-        r"$\alpha$ / °",
-        "$i$",
-    )
+    head = (_("joint"), _("kind"), _("wheels"), "$z$", "$m$ / mm", "$r$ / mm", "$a$ / mm", r"$\alpha$ / °", "$i$")
     table = Table(head, rows, "<<<>>>>>>", _("Pairs of wheels and racks"))
     return printed(table, case.language, "wheels")
 
@@ -65,10 +55,16 @@ def _sizes(case: ReportContext, pairs: Mapping[str, WheelSizes]) -> Block:
 def _row(case: ReportContext, name: str, sizes: WheelSizes) -> tuple[str, ...]:
     """Name, kind, wheels, teeth, module, pitch radii, centre distance, pressure angle, ratio."""
     return (
-        name, case.sentence(case.mechanism.joints[name].word()), ", ".join(sizes.links),
-        _listed(sizes.teeth), _listed(sizes.module, 1e3), _listed(sizes.radii, 1e3), _listed(sizes.distance, 1e3),
-        _listed(sizes.pressure_angle, 180.0 / math.pi), "–" if sizes.ratio is None else written(sizes.ratio),
-    )  # fmt: skip
+        name,
+        case.sentence(case.mechanism.joints[name].word()),
+        ", ".join(sizes.links),
+        _listed(sizes.teeth),
+        _listed(sizes.module, 1e3),
+        _listed(sizes.radii, 1e3),
+        _listed(sizes.distance, 1e3),
+        _listed(sizes.pressure_angle, 180.0 / math.pi),
+        "–" if sizes.ratio is None else written(sizes.ratio),
+    )
 
 
 def _listed(values: float | Sequence[float] | None, factor: float = 1.0) -> str:
@@ -113,8 +109,7 @@ def _train(case: ReportContext, train: GearTrain) -> Iterator[Block]:
             literal(
                 say(
                     _(
-                        "{pairs} would give a wheel another ratio: the wheels cannot turn against the "
-                        "carrier.",
+                        "{pairs} would give a wheel another ratio: the wheels cannot turn against the carrier.",
                         pairs=", ".join(train.blocked),
                     )
                 )
@@ -157,24 +152,28 @@ def _teeth(case: ReportContext, same: Sequence[str], sizes: WheelSizes) -> Itera
             _(
                 "Standard involute teeth (addendum 1 module, dedendum 1.25 modules), no profile "
                 "shift; $d$, $d_{b}$, $d_{a}$, $d_{f}$: diameters of the pitch, base, tip and root "
-                "circles, $s$: thickness of a tooth (of a ring: of a space) on the pitch circle.",
+                "circles, $s$: thickness of a tooth (of a ring: of a space) on the pitch circle."
             )
         )
     )
     yield _diameters(case, mesh, names)
     yield Paragraph(
-        say(_(
-"Contact ratio {ratio}, centre distance {distance} mm, pressure angle in mesh "
-"{angle}°.",
-ratio=f"{mesh.contact_ratio:.4g}",
-distance=number(mesh.centre_distance, "length"),
-angle=number(mesh.working_pressure_angle, "angle"),
-))
-    )  # fmt: skip
+        say(
+            _(
+                "Contact ratio {ratio}, centre distance {distance} mm, pressure angle in mesh {angle}°.",
+                ratio=f"{mesh.contact_ratio:.4g}",
+                distance=number(mesh.centre_distance, "length"),
+                angle=number(mesh.working_pressure_angle, "angle"),
+            )
+        )
+    )
     for sentence in mesh.findings:
         yield Paragraph(literal(case.sentence(sentence)), "note")
-    yield Figure(say(_("Teeth of {pair} in mesh", pair=literal(", ".join(same)))),
-                 ((mesh.draw(language=case.language).svg, 0.7),), tallest=110.0)  # fmt: skip
+    yield Figure(
+        say(_("Teeth of {pair} in mesh", pair=literal(", ".join(same)))),
+        ((mesh.draw(language=case.language).svg, 0.7),),
+        tallest=110.0,
+    )
 
 
 def _diameters(case: ReportContext, mesh: GearPair, names: list[str]) -> Block:

@@ -49,8 +49,7 @@ def _quick_return(case: ReportContext, rows: list[MetricValue]) -> Iterator[Bloc
         yield Paragraph(
             case.say(
                 _(
-                    "Quick-return ratio of {subject}, with the angle $\\theta$ of the crank between the "
-                    "limits:",
+                    "Quick-return ratio of {subject}, with the angle $\\theta$ of the crank between the limits:",
                     subject=literal(row.subject),
                 )
             )

@@ -24,17 +24,7 @@ from linkwright.equations.notation import (
 )
 from linkwright.equations.steps import Equation, Note, Relation, Step, Tabulated, Written
 from linkwright.errors import LinkwrightError
-from linkwright.reports.document import (
-    Block,
-    Formula,
-    Heading,
-    Paragraph,
-    Table,
-    literal,
-    noted,
-    strong,
-    symbols,
-)
+from linkwright.reports.document import Block, Formula, Heading, Paragraph, Table, literal, noted, strong, symbols
 from linkwright.reports.formula_lines import width
 from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.section import section
@@ -71,12 +61,7 @@ def blocks(case: ReportContext) -> Iterator[Block]:
     for number, group in enumerate(case.structure.groups, 1):
         links = literal(", ".join(group.links))
         title = say(
-            _(
-                "Step {number}: {signature}, links {links}",
-                number=number,
-                signature=group.signature,
-                links=links,
-            )
+            _("Step {number}: {signature}, links {links}", number=number, signature=group.signature, links=links)
         )
         own = (formulas(step) for step in steps if step.group == group.name)
         found = [*_loops(case, group), *chain.from_iterable(own)]
@@ -100,8 +85,7 @@ def _loops(case: ReportContext, group: Group) -> Iterator[Block]:
 def formulas(step: Step) -> Iterator[Block]:
     """The relations and formulas of a step, its numbers left out."""
     if any(
-        item.formula if isinstance(item, Equation) else isinstance(item, Relation | Written)
-        for item in step.items
+        item.formula if isinstance(item, Equation) else isinstance(item, Relation | Written) for item in step.items
     ):
         yield Paragraph(strong(symbols(step.title)), "lead")
         yield from printed(step, numbers=False)

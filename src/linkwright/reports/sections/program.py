@@ -21,9 +21,7 @@ def blocks(case: ReportContext) -> Iterator[Block]:
         forces: Forces | None = case.numbered_forces
     except LinkwrightError:
         forces = None
-    listing = Listing(
-        numbered.motion, forces, say, rows=numbered.rows, source=case.source, language=case.language
-    )
+    listing = Listing(numbered.motion, forces, say, rows=numbered.rows, source=case.source, language=case.language)
     text = listing.text()
     yield Paragraph(
         say(
@@ -41,7 +39,7 @@ def blocks(case: ReportContext) -> Iterator[Block]:
             say(
                 _(
                     "Groups of which there is no such function are solved by the library; the model file "
-                    "has to be where the program runs.",
+                    "has to be where the program runs."
                 )
             ),
             "note",

@@ -35,18 +35,17 @@ def blocks(case: ReportContext) -> Iterator[Block]:
     """Sizes of all joint forces, the largest of each, and their hodographs."""
     say, _unused = case.say, case.forces
     yield Paragraph(
-        say(
-            _(
-                "The force of every joint, found group by group in reverse order; the other link "
-                "feels the reverse.",
-            )
-        )
+        say(_("The force of every joint, found group by group in reverse order; the other link feels the reverse."))
     )
     peaks = [row for row in case.metrics if row.metric == "peak_reaction"]
     rows: list[list[Cell]] = [
-        [in_words(row.subject, case.language), Amount(row.value, row.dimension),
-         None if row.at is None else Amount(faded(row.at), row.at_dimension)] for row in peaks
-    ]  # fmt: skip
+        [
+            in_words(row.subject, case.language),
+            Amount(row.value, row.dimension),
+            None if row.at is None else Amount(faded(row.at), row.at_dimension),
+        ]
+        for row in peaks
+    ]
     if rows:
         head = (_("joint"), _("largest force"), _("at the input"))
         yield printed(Table(head, rows, "<>>", _("Largest force in every joint")), case.language, "peaks")
@@ -86,8 +85,10 @@ def _parts(case: ReportContext, most: int) -> list[list[str]]:
 
 def loaded_joints(case: ReportContext) -> list[tuple[str, str]]:
     """The joint forces, those of joints that carry nothing left out."""
-    peaks = {pair: float(np.nanmax(np.abs(case.forces.reaction(pair[0], on=pair[1])), initial=0.0))
-             for pair in reaction_pairs(case.mechanism)}  # fmt: skip
+    peaks = {
+        pair: float(np.nanmax(np.abs(case.forces.reaction(pair[0], on=pair[1])), initial=0.0))
+        for pair in reaction_pairs(case.mechanism)
+    }
     threshold = ROUNDING * max(peaks.values(), default=0.0)
     carrying = {joint for (joint, _unused), peak in peaks.items() if peak > threshold}
     return [pair for pair in peaks if pair[0] in carrying]

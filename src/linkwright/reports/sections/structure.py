@@ -54,9 +54,7 @@ def _pictures(case: ReportContext) -> Block:
     except LinkwrightError as error:
         return Paragraph(literal(case.message(error)), "missing")
     names = ", ".join(f"{n} {group.signature}" for n, group in enumerate(case.structure.groups, 1))
-    caption = case.say(
-        _("The groups, separated from the machine, in solving order: {names}", names=literal(names))
-    )
+    caption = case.say(_("The groups, separated from the machine, in solving order: {names}", names=literal(names)))
     return Figure(caption, pictures, "group-pictures")
 
 
@@ -81,7 +79,14 @@ def _groups(case: ReportContext) -> Block:
         kind = _("driven link") if group.assur_class == 1 and group.drivers else group.signature
         level = numeral(group.assur_class, case.say)
         rows.append([number, kind, ", ".join(group.links), level, group.assur_order, outer, inner or "–"])
-    head = (_("step"), _("group"), _("links"), _("class"), pgettext("report", "order"), _("outer joints"),
-            _("inner joints"))  # fmt: skip
+    head = (
+        _("step"),
+        _("group"),
+        _("links"),
+        _("class"),
+        pgettext("report", "order"),
+        _("outer joints"),
+        _("inner joints"),
+    )
     groups = Table(head, rows, "<<<<<<<", _("Assur groups in solving order"))
     return printed(groups, case.language, "groups")

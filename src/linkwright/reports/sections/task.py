@@ -27,9 +27,20 @@ LONGEST = 12
 LAWS = ("speed", "table", "program", "position")
 #: Keys whose values are words of the model language.
 CHOICES = (
-    "closure", "direction", "from", "to", "interpolation", "mesh", "opposes", "pushes", "run", "side", "touch",
-    "turn", "over",
-)  # fmt: skip
+    "closure",
+    "direction",
+    "from",
+    "to",
+    "interpolation",
+    "mesh",
+    "opposes",
+    "pushes",
+    "run",
+    "side",
+    "touch",
+    "turn",
+    "over",
+)
 _QUANTITY = re.compile(r"([+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?)((?: \S+)?)")
 #: Kinds of joints and loads, and laws of drivers, in words.
 KINDS: Mapping[str, Message] = {
@@ -95,12 +106,16 @@ def _links(case: ReportContext) -> Block:
             (ax, ay), (bx, by) = (link.points[each] for each in named[:2])
             size = number(float(np.hypot(bx - ax, by - ay)), "length")
         centre = _place(*link.centre) if link.mass else "–"
-        rows.append(
-            (index, name, ", ".join(points), size, _or_dash(link.mass),
-             _or_dash(link.inertia), centre)
-        )  # fmt: skip
-    head = (_("no."), _("link"), _("points in the link's axes, mm"), "$l$ / mm", "$m$ / kg", "$J_G$ / kg·m²",
-            _("mass centre, mm"))  # fmt: skip
+        rows.append((index, name, ", ".join(points), size, _or_dash(link.mass), _or_dash(link.inertia), centre))
+    head = (
+        _("no."),
+        _("link"),
+        _("points in the link's axes, mm"),
+        "$l$ / mm",
+        "$m$ / kg",
+        "$J_G$ / kg·m²",
+        _("mass centre, mm"),
+    )
     return printed(Table(head, rows, "<<<>>><", _("Moving links")), case.language, "links")
 
 

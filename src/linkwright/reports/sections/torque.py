@@ -31,7 +31,7 @@ def blocks(case: ReportContext) -> Iterator[Block]:
             _(
                 "The effort of the driver is found twice: from the equilibrium of the driven link "
                 "with all joint forces, and from the sum of the powers of weight, inertia and loads, "
-                "which with the driver's own must be zero.",
+                "which with the driver's own must be zero."
             )
         )
     )
@@ -46,9 +46,11 @@ def blocks(case: ReportContext) -> Iterator[Block]:
         key, first = leading(case)
         body = tuple((*first[k], printed[0][k], printed[1][k], gaps[k]) for k in range(len(rows)))
         head = (
-            *key, say(_("from joint forces")) + f" / {unit}",
-            say(_("from powers")) + f" / {unit}", say(_("difference")) + f" / {unit}",
-        )  # fmt: skip
+            *key,
+            say(_("from joint forces")) + f" / {unit}",
+            say(_("from powers")) + f" / {unit}",
+            say(_("difference")) + f" / {unit}",
+        )
         yield Table(
             say(_("Driving effort from the joint forces and from the powers")),
             head,

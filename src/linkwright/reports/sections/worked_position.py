@@ -10,14 +10,7 @@ from linkwright.pictures.drawing import PIXELS
 from linkwright.pictures.svg.render import natural_size
 from linkwright.plotting.diagrams.base import title_of
 from linkwright.plotting.diagrams.force_polygon import link_forces
-from linkwright.reports.document import (
-    Block,
-    Figure,
-    Heading,
-    Paragraph,
-    literal,
-    symbols,
-)
+from linkwright.reports.document import Block, Figure, Heading, Paragraph, literal, symbols
 from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.section import section
 from linkwright.reports.sections.method import printed
@@ -42,17 +35,14 @@ def blocks(case: ReportContext) -> Iterator[Block]:
     say = case.say
     case.require_position()
     if case.worked_text:
-        yield Paragraph(
-            say(_("The position {input} is worked out in full.", input=literal(case.worked_text)))
-        )
+        yield Paragraph(say(_("The position {input} is worked out in full.", input=literal(case.worked_text))))
     try:
         yield from _solution(case.worked)
     except LinkwrightError as error:
         yield Paragraph(
             say(
                 _(
-                    "The equations with their numbers cannot be written here, the polygons can be drawn: "
-                    "{sentence}",
+                    "The equations with their numbers cannot be written here, the polygons can be drawn: {sentence}",
                     sentence=literal(case.message(error)),
                 )
             ),

@@ -71,9 +71,7 @@ class DevelopmentPanel(Panel):
             picture.line([(at[0], low), (at[0], at[1])], "thin")
             picture.circle(at, roller, "thin")
             number = str(k % (len(self.places) - 1))
-            names.append(
-                Name(as_runs(number), [np.array([at[0], low - depth]) for depth in (2.5, 8.0)], clear=0.3)
-            )
+            names.append(Name(as_runs(number), [np.array([at[0], low - depth]) for depth in (2.5, 8.0)], clear=0.3))
         return names
 
     def _marks(self, picture: Picture, paper: Paper, corner: tuple[float, float]) -> list[Name]:
@@ -92,10 +90,7 @@ class DevelopmentPanel(Panel):
             start, slope = pitch_of(self.design, phi)[0], self.design.wall.contact(phi).normal[0]
             spots = angle_between(picture, paper.point(start), 1j, complex(slope), 0.0)
             names.append(Name(indexed("α", "max"), spots))
-        for title, curve, share in (
-            (_("pitch curve"), self.pitch, 0.28),
-            (_("profile"), self.walls[1], 0.36),
-        ):
+        for title, curve, share in ((_("pitch curve"), self.pitch, 0.28), (_("profile"), self.walls[1], 0.36)):
             place = paper.point(curve[round(share * (len(curve) - 1))])
             side = place + _LEADER
             picture.line([place, side])

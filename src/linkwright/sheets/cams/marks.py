@@ -76,9 +76,7 @@ def _steepest(picture: Picture, paper: Paper, design: CamDesign) -> Iterator[Nam
     yield Name(indexed("α", "max"), angle_between(picture, start, along, normal, roller), clear=_CLEAR)
 
 
-def angle_between(
-    picture: Picture, start: Floats, along: complex, normal: complex, roller: float
-) -> list[Floats]:
+def angle_between(picture: Picture, start: Floats, along: complex, normal: complex, roller: float) -> list[Floats]:
     """Draws the angle at a place from the way of the follower to the normal, that one as far back as to the profile
     of a ``roller`` (mm); gives the places where its name may be."""
     picture.line([start - (roller + 7.0) * pair(normal), start + _ARM * pair(normal)], "thin")
@@ -108,9 +106,7 @@ def _tightest(picture: Picture, paper: Paper, design: CamDesign, outer: float) -
     picture.arrow(centre, point, "thin")
     for way in ((1.2, 0.0), (0.0, 1.2)):
         picture.line([centre - np.array(way), centre + np.array(way)])
-    yield Name(
-        indexed("ρ", "min"), [point + share * (centre - point) for share in (0.5, 0.7, 0.3)], clear=_CLEAR
-    )
+    yield Name(indexed("ρ", "min"), [point + share * (centre - point) for share in (0.5, 0.7, 0.3)], clear=_CLEAR)
 
 
 def _radii(picture: Picture, paper: Paper, design: CamDesign) -> Iterator[Name]:

@@ -108,9 +108,7 @@ class MotionPanel(Panel):
         for number, place in enumerate(places.tolist()):
             x = wide * place / TURN
             height = float(np.interp(place, self.design.angles, lift)) / each
-            picture.line(
-                [(x, zero), (x, zero + height)] if abs(height) > 0.3 else [(x, zero - 1.0), (x, zero)]
-            )
+            picture.line([(x, zero), (x, zero + height)] if abs(height) > 0.3 else [(x, zero - 1.0), (x, zero)])
             name = str(number % len(self.places))
             half = 0.5 * runs_width(as_runs(name), MIN_TEXT)
             if x - half > last + 0.5:

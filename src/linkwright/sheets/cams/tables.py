@@ -26,14 +26,7 @@ WAYS = {"rise": pgettext("cam_sheet", "rise"), "fall": _("return"), "dwell": pge
 
 def data_table(design: CamDesign, say: Translate, parts: int) -> TablePanel:
     """Motion, sizes and checks of a cam: name, symbol, value; in so many parts side by side."""
-    head = [
-        say(key)
-        for key in (
-            _("quantity"),
-            _("symbol"),
-            _("value"),
-        )
-    ]
+    head = [say(key) for key in (_("quantity"), _("symbol"), _("value"))]
     rows = [*_motion(design, say), *_sizes(design, say), *_checks(design, say)]
     return TablePanel("table_data", 2.0, head, rows, say(_("Data of the cam")), parts=parts)
 
@@ -86,11 +79,7 @@ def _sizes(design: CamDesign, say: Translate) -> Iterator[Row]:
         yield _row(say, _("radius of the barrel"), "R", 1e3 * cam.barrel_radius, "mm")
     elif follower.kind == "roller":
         yield _row(
-            say,
-            _("prime circle (to roller centre)"),
-            indexed("r", "0"),
-            1e3 * (base + follower.roller_radius),
-            "mm",
+            say, _("prime circle (to roller centre)"), indexed("r", "0"), 1e3 * (base + follower.roller_radius), "mm"
         )
         yield _row(say, _("base circle (of the profile)"), indexed("r", "b"), 1e3 * base, "mm")
     else:
@@ -129,11 +118,7 @@ def _checks(design: CamDesign, say: Translate) -> Iterator[Row]:
             yield [say(name), indexed("α", "max"), value]
     if design.smallest_radius is not None:
         yield _row(
-            say,
-            _("minimum radius of curvature"),
-            indexed("ρ", "min"),
-            1e3 * design.smallest_radius.value,
-            "mm",
+            say, _("minimum radius of curvature"), indexed("ρ", "min"), 1e3 * design.smallest_radius.value, "mm"
         )
 
 
@@ -152,9 +137,7 @@ def points_table(design: CamDesign, say: Translate, letters: float, tall: int) -
     ``tall`` rows, as far as the paper is wide enough; ``letters``: their height, mm."""
     head, rows = _points(design)
     parts = min(_PARTS, math.ceil(len(rows) / tall))
-    found = PointsTable(
-        "table_points", 3.0, head, rows, say(_("Divided angles, axes of the cam")), parts=parts
-    )
+    found = PointsTable("table_points", 3.0, head, rows, say(_("Divided angles, axes of the cam")), parts=parts)
     found.letters = letters
     found.note = joined("x, y ", say(_("profile")))
     if design.cam.follower.kind == "roller":

@@ -50,8 +50,7 @@ def mechanism(subject: Subject) -> Content:
     if not positions.shown:
         raise LinkwrightError(
             _(
-                "{name}: none of the positions of the sheet is reached; choose others with `sheet: "
-                "positions`",
+                "{name}: none of the positions of the sheet is reached; choose others with `sheet: positions`",
                 code="sheet.nothing_reached",
                 name=subject.drawn.name,
             )

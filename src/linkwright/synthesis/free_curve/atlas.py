@@ -26,14 +26,7 @@ from linkwright.formula.cache import folder
 from linkwright.formula.threads import cores, spread_over
 from linkwright.synthesis.free_curve.curve_similarity import ANGLES, LANDMARKS, POINTS, REACH, RINGS, TURNS
 from linkwright.synthesis.free_curve.target import Target, even_points, normal
-from linkwright.synthesis.free_curve.topology import (
-    Design,
-    Draw,
-    kernels,
-    node_paths,
-    random_structure,
-    turned_paths,
-)
+from linkwright.synthesis.free_curve.topology import Design, Draw, kernels, node_paths, random_structure, turned_paths
 
 #: Points of a curve; lengths of the parts tried for open curves; steps of one byte in a coordinate.
 M, WINDOWS, STEP = 64, (16, 23, 33, 46, 64), 1 / 36
@@ -75,9 +68,7 @@ class Atlas:
     def matches(self, target: Target) -> Matches:
         """How well each curve, or the best part of it, follows the target."""
         wanted = list(_windows(target))
-        filters = [
-            np.conj(np.fft.fft(np.pad(each, (0, M - len(each))))).astype(np.complex64) for _, each in wanted
-        ]
+        filters = [np.conj(np.fft.fft(np.pad(each, (0, M - len(each))))).astype(np.complex64) for _, each in wanted]
         best = np.zeros((3, len(self.curves)), np.float32)
 
         def match(first: int, last: int) -> None:
@@ -101,9 +92,7 @@ class Atlas:
         def match(first: int, last: int) -> None:
             curves, room = _complex(self.curves[first:last]), np.zeros(1024)
             arrays = [each.ctypes.data for each in (tables, landmarks, room, found[first:last])]
-            kernels()(
-                "likeness", curves.ctypes.data, last - first, M, points.ctypes.data, len(tried), *arrays
-            )
+            kernels()("likeness", curves.ctypes.data, last - first, M, points.ctypes.data, len(tried), *arrays)
 
         def laid(i: int) -> Laid:
             part, image, turn = np.unravel_index(int(found[i, 1]), (len(tried), 2, TURNS))
@@ -190,9 +179,7 @@ def _windows(target: Target) -> Iterator[tuple[bool, Complexes]]:
             yield mirror, oriented[::-1]
 
 
-def _match(
-    curves: NDArray[np.int8], wanted: list[Any], filters: list[Any], closed: bool
-) -> NDArray[np.float32]:
+def _match(curves: NDArray[np.int8], wanted: list[Any], filters: list[Any], closed: bool) -> NDArray[np.float32]:
     """Largest correlation of each curve, the number of its window, and its first point, (3, N)."""
     from scipy import fft
 
@@ -231,9 +218,7 @@ def make(level: int) -> Atlas:
     joints, slides, kinds = LEVELS[level]
     draw = np.random.default_rng(level + 1)
     found = [
-        (nodes, draws)
-        for dyads, count, draws in kinds
-        for nodes in _structures(dyads, joints, slides, count, draw)
+        (nodes, draws) for dyads, count, draws in kinds for nodes in _structures(dyads, joints, slides, count, draw)
     ]
     signatures: list[tuple[Floats, NDArray[np.int8]] | None] = [None] * len(found)
     seeds = draw.integers(1 << 60, size=len(found))
@@ -248,9 +233,7 @@ def make(level: int) -> Atlas:
         [np.column_stack([np.full(len(x), k), np.arange(len(x))]) for k, (x, _) in enumerate(parts)]
     )
     curves = np.concatenate([curve for _, curve in parts])
-    return Atlas(
-        tuple(nodes for nodes, _ in found), tuple(x for x, _ in parts), which.astype(np.int32), curves
-    )
+    return Atlas(tuple(nodes for nodes, _ in found), tuple(x for x, _ in parts), which.astype(np.int32), curves)
 
 
 def _structures(dyads: int, joints: int, slides: int, count: int, draw: Draw) -> list[Integers]:
@@ -270,9 +253,19 @@ def _draws(nodes: Integers, draws: int, draw: np.random.Generator) -> tuple[Floa
     x, z, radius = np.zeros((draws, size)), np.zeros((draws, M, 2)), np.zeros(draws)
     room = np.zeros(2 * joints * POSITIONS + 16)
     kernels()(
-        "draw_linkages", nodes.ctypes.data, joints, POSITIONS, x.ctypes.data, numbers.ctypes.data, LIMIT, M,
-        z.ctypes.data, room.ctypes.data, draws, radius.ctypes.data,
-    )  # fmt: skip
+        "draw_linkages",
+        nodes.ctypes.data,
+        joints,
+        POSITIONS,
+        x.ctypes.data,
+        numbers.ctypes.data,
+        LIMIT,
+        M,
+        z.ctypes.data,
+        room.ctypes.data,
+        draws,
+        radius.ctypes.data,
+    )
     good = radius > RADIUS
     return x[good].astype(np.float32), np.clip(np.round(z[good] / STEP), -127, 127).astype(np.int8)
 
@@ -304,12 +297,7 @@ def _read(path: Path, level: int) -> Atlas:
     nodes = tuple(np.ascontiguousarray(row[1 : 1 + 4 * row[0]]) for row in structures)
     rows = np.bincount(which[:, 0], minlength=count)
     ends = np.cumsum(rows * 2 * (joints - 2))
-    if (
-        len(nodes) != count
-        or len(curves) != len(which)
-        or curves.shape[1:] != (M, 2)
-        or ends[-1] != len(numbers)
-    ):
+    if len(nodes) != count or len(curves) != len(which) or curves.shape[1:] != (M, 2) or ends[-1] != len(numbers):
         raise ValueError(path)
     parts = np.split(numbers, ends[:-1])
     x = tuple(part.reshape(int(row), -1) for part, row in zip(parts, rows, strict=True))

@@ -90,9 +90,16 @@ def distance_back(x: Reals, y: Reals, turn: int, mx: Reals, my: Reals, room: Rea
 
 
 def likeness(
-    curves: Reals, count: int, points: int, parts: Wholes, number: int, tables: Reals, landmarks: Reals, room: Reals,
+    curves: Reals,
+    count: int,
+    points: int,
+    parts: Wholes,
+    number: int,
+    tables: Reals,
+    landmarks: Reals,
+    room: Reals,
     out: Reals,
-) -> None:  # fmt: skip
+) -> None:
     """Minimum distance over all parts, turns and both images of each curve, and (part · 2 + image) · TURNS + turn."""
     x, y, sums, work = room, room + POINTS, room + 2 * POINTS, room + 2 * POINTS + 4 * TURNS
     for each in range(count):
@@ -109,12 +116,7 @@ def likeness(
                 there = sums[image * TURNS + turn] / POINTS
                 if there < best:
                     both = there + distance_back(
-                        x,
-                        y,
-                        turn,
-                        landmarks + 2 * image * LANDMARKS,
-                        landmarks + (2 * image + 1) * LANDMARKS,
-                        work,
+                        x, y, turn, landmarks + 2 * image * LANDMARKS, landmarks + (2 * image + 1) * LANDMARKS, work
                     )
                     if both < best:
                         best = both

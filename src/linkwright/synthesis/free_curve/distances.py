@@ -8,18 +8,7 @@ from __future__ import annotations
 
 from math import cos, sin, sqrt
 
-from linkwright.formula.kernel import (
-    Reals,
-    load,
-    mark_of,
-    marked,
-    maximum,
-    minimum,
-    root,
-    spread,
-    store,
-    total,
-)
+from linkwright.formula.kernel import Reals, load, mark_of, marked, maximum, minimum, root, spread, store, total
 
 #: Most positions of one curve.
 WIDE = 512
@@ -100,9 +89,7 @@ def nearest(px: Reals, py: Reals, count: int, x: Reals, y: Reals, n: int, closed
         store(work, 12 * WIDE + j, low)
 
 
-def feet(
-    px: Reals, py: Reals, count: int, x: Reals, y: Reals, n: int, closed: int, soft: float, work: Reals
-) -> None:
+def feet(px: Reals, py: Reals, count: int, x: Reals, y: Reals, n: int, closed: int, soft: float, work: Reals) -> None:
     """Nearest points on a curve of n points from ``count`` points p.
 
     Blocks of ``work``: 6, 7: from there to p, over the smoothed distance; 8: that distance; 9, 10: shares of the two

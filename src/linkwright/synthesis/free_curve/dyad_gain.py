@@ -72,9 +72,18 @@ def slides(kind: int) -> int:
 
 
 def grow(
-    nodes: Wholes, count: int, x: Reals, at: int, hung: int, far: int, new: int, side: int, more: Reals,
-    made: Wholes, numbers: Reals,
-) -> int:  # fmt: skip
+    nodes: Wholes,
+    count: int,
+    x: Reals,
+    at: int,
+    hung: int,
+    far: int,
+    new: int,
+    side: int,
+    more: Reals,
+    made: Wholes,
+    numbers: Reals,
+) -> int:
     """The linkage with the dyad: ``made`` and ``numbers``; gives its count. ``new``: 1 where F (in row ``at`` of
     ``made`` already) is new; ``more``: F's two numbers and the logarithms of both lengths; w = 0."""
     shift = 2 + new
@@ -116,9 +125,18 @@ def grow(
 
 
 def lengths(
-    N: int, px: Reals, py: Reals, qx: Reals, qy: Reals, side: float, u: float, v: float, limit: float,
-    room: Reals, more: Reals,
-) -> float:  # fmt: skip
+    N: int,
+    px: Reals,
+    py: Reals,
+    qx: Reals,
+    qy: Reals,
+    side: float,
+    u: float,
+    v: float,
+    limit: float,
+    room: Reals,
+    more: Reals,
+) -> float:
     """Lengths of a dyad that closes between two nodes with a good transmission angle, by two uniform numbers."""
     spans(N, px, py, qx, qy, room)
     low, high = room[0], room[1]
@@ -133,9 +151,20 @@ def lengths(
 
 
 def drawn_dyad(
-    nodes: Wholes, count: int, N: int, x: Reals, X: Reals, Y: Reals, r: Reals, most: int, reach: Reals,
-    limit: float, room: Reals, made: Wholes, numbers: Reals,
-) -> int:  # fmt: skip
+    nodes: Wholes,
+    count: int,
+    N: int,
+    x: Reals,
+    X: Reals,
+    Y: Reals,
+    r: Reals,
+    most: int,
+    reach: Reals,
+    limit: float,
+    room: Reals,
+    made: Wholes,
+    numbers: Reals,
+) -> int:
     """One more dyad after nine uniform numbers r: ``made``, ``numbers``; gives the row of its point, -1: none."""
     hung = count - 1 if r[0] < 0.5 else 1 + int((r[0] - 0.5) * 2.0 * (count - 2))
     at = count if hung == count - 1 else first_use(nodes, count, hung)
@@ -206,10 +235,24 @@ def own_columns(nodes: Wholes, count: int, n: int, closed: int, x: Reals, m: int
 
 
 def promises(
-    nodes: Wholes, count: int, n: int, N: int, closed: int, x: Reals, target: Reals, m: int, options: Reals,
-    room: Reals, draws: int, r: Reals, most: int, made: Wholes, numbers: Reals, counts: Wholes,
+    nodes: Wholes,
+    count: int,
+    n: int,
+    N: int,
+    closed: int,
+    x: Reals,
+    target: Reals,
+    m: int,
+    options: Reals,
+    room: Reals,
+    draws: int,
+    r: Reals,
+    most: int,
+    made: Wholes,
+    numbers: Reals,
+    counts: Wholes,
     gains: Reals,
-) -> float:  # fmt: skip
+) -> float:
     """Draws dyads and says what each promises, as a share of the residual; gives the residual's share outside J.
 
     ``made`` (draws, ROWS), ``numbers`` (draws, NUMBERS), ``counts``: the linkages with them; ``gains`` -1: none.
@@ -260,6 +303,4 @@ def misses(
             store(out, m + j, far * load(work, 7 * WIDE + j))
 
 
-PROMISES = (
-    take_off, misses, remainder, first_use, slides, grow, lengths, drawn_dyad, own_columns, promises,
-)  # fmt: skip
+PROMISES = (take_off, misses, remainder, first_use, slides, grow, lengths, drawn_dyad, own_columns, promises)

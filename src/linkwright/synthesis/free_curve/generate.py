@@ -139,8 +139,7 @@ def free_curve(
     if joints > JOINTS[-1]:
         raise SynthesisError(
             _(
-                "a search with at most {value} joints cannot be made; ask for 5 (four-bar, slider-crank) "
-                "to {most}",
+                "a search with at most {value} joints cannot be made; ask for 5 (four-bar, slider-crank) to {most}",
                 code="synthesize.free_curve.joints",
                 value=joints,
                 most=JOINTS[-1],
@@ -207,23 +206,27 @@ def _ranked(
         notes.append(RESUME.format(path=cache.left()))
     counts = {"attempts": search.attempts, "designs": len(found)}
     derivation = FreeCurveDerivation(
-        curve, target.closed, target.centre, target.radius, target.least, target.largest, target.turning,
-        search.seconds, search.attempts, len(found),
-    )  # fmt: skip
+        curve,
+        target.closed,
+        target.centre,
+        target.radius,
+        target.least,
+        target.largest,
+        target.turning,
+        search.seconds,
+        search.attempts,
+        len(found),
+    )
     if not within:
         nearest = [_candidate(each, target) for each, _unused in _front(found)[:count]]
         near = (
-            Synthesis(
-                "free_curve", tuple(nearest), "curve", curve, counts, tuple(notes), derivation=derivation
-            )
+            Synthesis("free_curve", tuple(nearest), "curve", curve, counts, tuple(notes), derivation=derivation)
             if nearest
             else None
         )
         raise SynthesisError(none.format(**asked), near)
     front = _front(within)
-    good = sorted(
-        (each for each in front if each[1][0] <= error), key=lambda each: (each[0].links, each[1][0])
-    )
+    good = sorted((each for each in front if each[1][0] <= error), key=lambda each: (each[0].links, each[1][0]))
     rest = [each for each in front if each[1][0] > error]
     chosen = _spread(good + rest, count)
     made = tuple(_candidate(each, target) for each, _unused in chosen)
@@ -283,10 +286,22 @@ def _candidate(design: Design, target: Target) -> Candidate:
     how, curve = drawing(placed), placed.curve(SHOWN)
     lengths = list(linkage.lengths().values())
     values = {
-        "joints": float(design.joints), "links": float(design.links), "size": placed.size(),
-        "drawn_as_given": how.along, "fastest_at_1_Hz": how.fastest, "fastest_to_mean": how.unevenness,
-    }  # fmt: skip
+        "joints": float(design.joints),
+        "links": float(design.links),
+        "size": placed.size(),
+        "drawn_as_given": how.along,
+        "fastest_at_1_Hz": how.fastest,
+        "fastest_to_mean": how.unevenness,
+    }
     return Candidate(
-        linkage, mean, kind_of(design), (), placed.turns(), angle, max(lengths) / min(lengths),
-        most, _shown(curve, target.closed), values,
-    )  # fmt: skip
+        linkage,
+        mean,
+        kind_of(design),
+        (),
+        placed.turns(),
+        angle,
+        max(lengths) / min(lengths),
+        most,
+        _shown(curve, target.closed),
+        values,
+    )

@@ -21,18 +21,7 @@ from __future__ import annotations
 
 from math import cos, exp, sin
 
-from linkwright.formula.kernel import (
-    Reals,
-    Wholes,
-    load,
-    maximum,
-    minimum,
-    root,
-    smallest,
-    spread,
-    store,
-    total,
-)
+from linkwright.formula.kernel import Reals, Wholes, load, maximum, minimum, root, smallest, spread, store, total
 from linkwright.synthesis.free_curve.distances import (
     WIDE,
     align,
@@ -42,12 +31,7 @@ from linkwright.synthesis.free_curve.distances import (
     target_to_curve,
     weigh,
 )
-from linkwright.synthesis.free_curve.sliding import (
-    block_back,
-    place_block,
-    place_slider,
-    slider_back,
-)
+from linkwright.synthesis.free_curve.sliding import block_back, place_block, place_slider, slider_back
 
 PIVOT, GUIDE, POINT, DYAD, SLIDER, BLOCK = 0, 1, 2, 3, 4, 5
 TURN, FAR = 6.283185307179586, 1e9
@@ -95,9 +79,7 @@ def place_dyad(
     return smallest(low)
 
 
-def place_point(
-    N: int, a: float, b: float, px: Reals, py: Reals, qx: Reals, qy: Reals, x: Reals, y: Reals
-) -> None:
+def place_point(N: int, a: float, b: float, px: Reals, py: Reals, qx: Reals, qy: Reals, x: Reals, y: Reals) -> None:
     """A point of a link."""
     for t in range(0, N, 8):
         ux = load(qx, t) - load(px, t)
@@ -168,9 +150,23 @@ def too_large(
 
 
 def align_back(
-    zx: Reals, zy: Reals, yx: Reals, yy: Reals, n: int, closed: int, at: Reals, w: Reals, steps: Reals,
-    angle: float, length: float, gx: Reals, gy: Reals, gw: Reals, g: Reals, room: Reals,
-) -> float:  # fmt: skip
+    zx: Reals,
+    zy: Reals,
+    yx: Reals,
+    yy: Reals,
+    n: int,
+    closed: int,
+    at: Reals,
+    w: Reals,
+    steps: Reals,
+    angle: float,
+    length: float,
+    gx: Reals,
+    gy: Reals,
+    gw: Reals,
+    g: Reals,
+    room: Reals,
+) -> float:
     """Slopes by the aligned curve become slopes by the curve itself; gives the slope by the picture's turn."""
     rho = at[2]
     kx, ky = cos(angle) / rho, sin(angle) / rho
@@ -197,9 +193,18 @@ def align_back(
 
 
 def lengths_back(
-    zx: Reals, zy: Reals, n: int, closed: int, steps: Reals, length: float, even: float, gx: Reals, gy: Reals,
-    gw: Reals, room: Reals,
-) -> None:  # fmt: skip
+    zx: Reals,
+    zy: Reals,
+    n: int,
+    closed: int,
+    steps: Reals,
+    length: float,
+    even: float,
+    gx: Reals,
+    gy: Reals,
+    gw: Reals,
+    room: Reals,
+) -> None:
     """Slopes by the points' shares of the length become slopes by the points."""
     ex, ey, inverse, last = room, room + WIDE, 1.0 / length, n - 1
     for t in range(0, n, 8):
@@ -221,9 +226,20 @@ def lengths_back(
 
 
 def dyad_back(
-    N: int, a: float, b: float, kappa: float, limit: float, X: Reals, Y: Reals, gX: Reals, gY: Reals,
-    i: int, j: int, own: int, g: Reals,
-) -> float:  # fmt: skip
+    N: int,
+    a: float,
+    b: float,
+    kappa: float,
+    limit: float,
+    X: Reals,
+    Y: Reals,
+    gX: Reals,
+    gY: Reals,
+    i: int,
+    j: int,
+    own: int,
+    g: Reals,
+) -> float:
     """Slopes by a dyad's point become slopes by its two ends and lengths; gives the transmission's penalty."""
     ia, ib = 1.0 / a, 1.0 / b
     ga, gb, miss = spread(0.0), spread(0.0), spread(0.0)
@@ -278,9 +294,18 @@ def point_back(
 
 
 def nodes_back(
-    nodes: Wholes, count: int, N: int, x: Reals, X: Reals, Y: Reals, gX: Reals, gY: Reals,
-    kappa: float, limit: float, g: Reals,
-) -> float:  # fmt: skip
+    nodes: Wholes,
+    count: int,
+    N: int,
+    x: Reals,
+    X: Reals,
+    Y: Reals,
+    gX: Reals,
+    gY: Reals,
+    kappa: float,
+    limit: float,
+    g: Reals,
+) -> float:
     """Slopes by the nodes' positions become slopes by x; gives the transmission's penalty."""
     lack = 0.0
     for back in range(2, count):
@@ -318,9 +343,18 @@ def range_back(n: int, N: int, closed: int, X: Reals, Y: Reals, gX: Reals, gY: R
 
 
 def deviation(
-    nodes: Wholes, count: int, n: int, N: int, closed: int, x: Reals, target: Reals, m: int, options: Reals,
-    room: Reals, g: Reals,
-) -> float:  # fmt: skip
+    nodes: Wholes,
+    count: int,
+    n: int,
+    N: int,
+    closed: int,
+    x: Reals,
+    target: Reals,
+    m: int,
+    options: Reals,
+    room: Reals,
+    g: Reals,
+) -> float:
     """The objective and its gradient g; ``options``: sin² μ₀, r₀, κ, ε². FAR where the linkage does not turn."""
     e = 2 * (count - 2)
     if closed == 0 and (x[e + 2] < MIN_SINE or x[e + 2] > TURN):

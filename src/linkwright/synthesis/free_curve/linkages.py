@@ -82,9 +82,14 @@ def linkage_of(placed: Placed) -> Linkage:
     driven = "crank" if placed.turns() else "input"
     links = _links(design.rows, names, driven)
     return Linkage(
-        kind_of(design), points, frame, links, (driven, "O"), _guides(placed, names, links),
+        kind_of(design),
+        points,
+        frame,
+        links,
+        (driven, "O"),
+        _guides(placed, names, links),
         span=None if closed else (ends[0], ends[1]),
-    )  # fmt: skip
+    )
 
 
 def kind_of(design: Design) -> str:

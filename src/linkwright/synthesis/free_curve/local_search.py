@@ -34,9 +34,18 @@ def dot(a: Reals, b: Reals, rows: int) -> float:
 
 
 def lay(
-    nodes: Wholes, count: int, n: int, closed: int, x: Reals, room: Reals, steps: Reals, w: Reals, at: Reals,
-    yx: Reals, yy: Reals,
-) -> float:  # fmt: skip
+    nodes: Wholes,
+    count: int,
+    n: int,
+    closed: int,
+    x: Reals,
+    room: Reals,
+    steps: Reals,
+    w: Reals,
+    at: Reals,
+    yx: Reals,
+    yy: Reals,
+) -> float:
     """The drawn curve laid on the target (yx, yy); negative where it does not close."""
     own, e = (count - 1) * n, 2 * (count - 2)
     X, Y = room, room + count * n
@@ -99,7 +108,7 @@ def directions(n: int, closed: int, target: Reals, m: int, soft: float, s: Reals
 
 def slopes(
     nodes: Wholes, count: int, n: int, closed: int, x: Reals, p: int, m: int, s: Reals, room: Reals, out: Reals
-) -> float:  # fmt: skip
+) -> float:
     """Slopes of all weighted distances by x[p]; ``s``: as from :func:`directions`. Negative: none."""
     before, yx, yy = x[p], s + 2 * WIDE, s + 3 * WIDE
     x[p] = before + STEP
@@ -126,9 +135,18 @@ def invert(H: Reals, d: int) -> None:
 
 
 def curvature(
-    nodes: Wholes, count: int, n: int, closed: int, x: Reals, target: Reals, m: int, soft: float,
-    H: Reals, d: int, room: Reals,
-) -> float:  # fmt: skip
+    nodes: Wholes,
+    count: int,
+    n: int,
+    closed: int,
+    x: Reals,
+    target: Reals,
+    m: int,
+    soft: float,
+    H: Reals,
+    d: int,
+    room: Reals,
+) -> float:
     """The inverse of the damped curvature of the distances; negative where the curve cannot be laid."""
     rows, s, J = n + m, room, room + 24 * WIDE
     free = J + d * rows
@@ -201,9 +219,18 @@ def direction(H: Reals, g: Reals, d: int, closed: int, span: float, s: Reals) ->
 
 
 def descend(
-    nodes: Wholes, count: int, n: int, N: int, closed: int, x: Reals, target: Reals, m: int, options: Reals,
-    room: Reals, iterations: int,
-) -> float:  # fmt: skip
+    nodes: Wholes,
+    count: int,
+    n: int,
+    N: int,
+    closed: int,
+    x: Reals,
+    target: Reals,
+    m: int,
+    options: Reals,
+    room: Reals,
+    iterations: int,
+) -> float:
     """Quasi-Newton descent that begins again with Gauss and Newton's curvature every ``FRESH`` steps.
 
     A weak Wolfe bisection suits the kinks of a distance (Lewis and Overton 2013).
@@ -264,17 +291,4 @@ def descend(
     return f
 
 
-DESCENT = (
-    dot,
-    lay,
-    column,
-    directions,
-    slopes,
-    invert,
-    curvature,
-    restart,
-    update,
-    newton,
-    direction,
-    descend,
-)
+DESCENT = (dot, lay, column, directions, slopes, invert, curvature, restart, update, newton, direction, descend)

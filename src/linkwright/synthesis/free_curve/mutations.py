@@ -9,15 +9,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.synthesis.free_curve.kernels import BLOCK, DYAD, GUIDE, PIVOT, POINT, SLIDER
-from linkwright.synthesis.free_curve.topology import (
-    Design,
-    Draw,
-    Node,
-    flat,
-    links_of,
-    pivots_of,
-    turned_paths,
-)
+from linkwright.synthesis.free_curve.topology import Design, Draw, Node, flat, links_of, pivots_of, turned_paths
 
 #: Positions of a turn, or of the drawn part, at which a new dyad must close.
 TURN = 96

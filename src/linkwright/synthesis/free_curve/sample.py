@@ -5,14 +5,7 @@ from __future__ import annotations
 from math import cos, exp, log, sin, sqrt
 
 from linkwright.formula.kernel import Reals, Wholes
-from linkwright.synthesis.free_curve.kernels import (
-    BLOCK,
-    DYAD,
-    POINT,
-    TURN,
-    place_dyad,
-    place_point,
-)
+from linkwright.synthesis.free_curve.kernels import BLOCK, DYAD, POINT, TURN, place_dyad, place_point
 from linkwright.synthesis.free_curve.sliding import place_block, place_slider
 
 
@@ -61,9 +54,19 @@ def even_points(zx: Reals, zy: Reals, N: int, M: int, Z: Reals) -> float:
 
 
 def draw_slide(
-    kind: int, N: int, a: float, b: float, px: Reals, py: Reals, qx: Reals, qy: Reals, x: Reals, y: Reals,
-    out: Reals, own: Reals,
-) -> float:  # fmt: skip
+    kind: int,
+    N: int,
+    a: float,
+    b: float,
+    px: Reals,
+    py: Reals,
+    qx: Reals,
+    qy: Reals,
+    x: Reals,
+    y: Reals,
+    out: Reals,
+    own: Reals,
+) -> float:
     """A sliding dyad from two uniform numbers, its own numbers, drawn after the range that it must span."""
     if kind == BLOCK:
         spans(N, px, py, qx, qy, out)
@@ -103,20 +106,14 @@ def draw_linkage(nodes: Wholes, count: int, N: int, x: Reals, r: Reals, limit: f
             total, difference = out[1] * (1.02 + 1.5 * a * a), out[0] * 0.98 * (2.0 * b - 1.0)
             if total - sqrt(difference * difference) < 0.16:
                 return -1.0
-            first, second, side = (
-                0.5 * (total + difference),
-                0.5 * (total - difference),
-                1.0 * nodes[4 * k + 3],
-            )
+            first, second, side = (0.5 * (total + difference), 0.5 * (total - difference), 1.0 * nodes[4 * k + 3])
             x[2 * k - 4] = log(first)
             x[2 * k - 3] = log(second)
             found = place_dyad(N, first, second, side, X + i, Y + i, X + j, Y + j, X + own, Y + own)
             if found < limit:
                 return -1.0
         elif kind > DYAD:
-            found = draw_slide(
-                kind, N, a, b, X + i, Y + i, X + j, Y + j, X + own, Y + own, out, x + (2 * k - 4)
-            )
+            found = draw_slide(kind, N, a, b, X + i, Y + i, X + j, Y + j, X + own, Y + own, out, x + (2 * k - 4))
             if found < limit:
                 return -1.0
         else:
@@ -134,9 +131,18 @@ def draw_linkage(nodes: Wholes, count: int, N: int, x: Reals, r: Reals, limit: f
 
 
 def draw_linkages(
-    nodes: Wholes, count: int, N: int, x: Reals, r: Reals, limit: float, M: int, Z: Reals, room: Reals,
-    draws: int, radius: Reals,
-) -> None:  # fmt: skip
+    nodes: Wholes,
+    count: int,
+    N: int,
+    x: Reals,
+    r: Reals,
+    limit: float,
+    M: int,
+    Z: Reals,
+    room: Reals,
+    draws: int,
+    radius: Reals,
+) -> None:
     """Many of one structure with their curves; ``radius`` is negative where there is none."""
     size, own = 2 * (count - 2), (count - 1) * N
     for c in range(draws):

@@ -56,9 +56,14 @@ ONE_DYAD = 0, SLIDING
 #: Eight-bars of 8 joints have another pool than six-bars, linkages of one sliding dyad from four-bars, as in one pool
 #: each would crowd out the other.
 LEVELS = (
-    Level(5, 0, 0.5), Level(5, SLIDING, 0.5, apart=True), Level(8, SIX_BARS, 3.5),
-    Level(8, 3, 2.5, apart=True), Level(9, 2, 2.5), Level(10, 2, 3.5), Level(12, None, 7.0),
-)  # fmt: skip
+    Level(5, 0, 0.5),
+    Level(5, SLIDING, 0.5, apart=True),
+    Level(8, SIX_BARS, 3.5),
+    Level(8, 3, 2.5, apart=True),
+    Level(9, 2, 2.5),
+    Level(10, 2, 3.5),
+    Level(12, None, 7.0),
+)
 #: Starts of a piece of work, how many of all descend further, and their share of a level's time.
 SOME, CHOSEN, STARTING = 100, 50, 0.5
 #: What share of the drawn starts goes on after each step, so many steps (all of the nearest, which come first).
@@ -93,9 +98,7 @@ class Pool:
     """The best designs so far, few of one structure or with similar errors, none twice."""
 
     designs: list[Design] = field(default_factory=list)
-    tried: tuple[deque[float], ...] = field(
-        default_factory=lambda: tuple(deque(maxlen=RECENT) for _ in GOES_ON)
-    )
+    tried: tuple[deque[float], ...] = field(default_factory=lambda: tuple(deque(maxlen=RECENT) for _ in GOES_ON))
 
     def promises(self, step: int, value: float) -> bool:
         """Whether a descent goes on after a step: it is among the best share of the recent ones, or in the pool."""
@@ -210,9 +213,7 @@ class Search:
                 pools = [*self.best.values(), *self.pools.values()]
                 found = [each for pool in pools for each in pool.designs[:1]]
             own = (part for each in found for part in (each.nodes, each.x, each.mirror))
-            made = checkpointed(
-                lambda: _bare(self._each(found, polished)), lambda: (self.key, "polished", *own)
-            )
+            made = checkpointed(lambda: _bare(self._each(found, polished)), lambda: (self.key, "polished", *own))
             return [each for each in (Design(*one) for one in made) if each.value < FAR]
 
     def _begin(self) -> None:
@@ -220,14 +221,11 @@ class Search:
         self.draw, self.stage, self.pools = np.random.default_rng(self.seed), 0, dict[Level, Pool]()
         self.best, self.hands = {level: Pool() for level in self.levels}, hands(self.client)
         self.saved, cache = self.begin, current_checkpoints()
-        self.rounds = max(
-            1, round(self.seconds * self.hands / (ROUND * sum(level.part for level in self.levels)))
-        )
+        self.rounds = max(1, round(self.seconds * self.hands / (ROUND * sum(level.part for level in self.levels))))
         over = None if cache is None else cache.resumed(self.key, self._resume)
         used = {each.atlas for each in self.levels if self.stage < self.rounds * len(self.levels)} - {None}
         self.matches = {
-            each: (atlas(each).nearest if each in ONE_DYAD else atlas(each).matches)(self.target)
-            for each in used
+            each: (atlas(each).nearest if each in ONE_DYAD else atlas(each).matches)(self.target) for each in used
         }
         if over is None:
             self.first = self._over()

@@ -30,9 +30,20 @@ def place_slider(
 
 
 def slider_back(
-    N: int, r: float, phi: float, kappa: float, limit: float, X: Reals, Y: Reals, gX: Reals, gY: Reals,
-    i: int, j: int, own: int, g: Reals,
-) -> float:  # fmt: skip
+    N: int,
+    r: float,
+    phi: float,
+    kappa: float,
+    limit: float,
+    X: Reals,
+    Y: Reals,
+    gX: Reals,
+    gY: Reals,
+    i: int,
+    j: int,
+    own: int,
+    g: Reals,
+) -> float:
     """With u = (B - P)/r and the guide's direction e and normal n: u·dB = u·dP + dr, n·dB = n·dQ + e·(B - Q) dφ."""
     c, s, inverse = cos(phi), sin(phi), 1.0 / r
     gr, gphi, miss = spread(0.0), spread(0.0), spread(0.0)
@@ -79,9 +90,20 @@ def place_block(
 
 
 def block_back(
-    N: int, a: float, e: float, kappa: float, limit: float, X: Reals, Y: Reals, gX: Reals, gY: Reals,
-    i: int, j: int, own: int, g: Reals,
-) -> float:  # fmt: skip
+    N: int,
+    a: float,
+    e: float,
+    kappa: float,
+    limit: float,
+    X: Reals,
+    Y: Reals,
+    gX: Reals,
+    gY: Reals,
+    i: int,
+    j: int,
+    own: int,
+    g: Reals,
+) -> float:
     """With u = (B - P)/a, its normal n and d = Q - P: the rod turns by dψ = (n·(dQ - dP) - de) / u·d."""
     ga, ge, miss, inverse = spread(0.0), spread(0.0), spread(0.0), 1.0 / a
     for t in range(0, N, 8):

@@ -52,9 +52,7 @@ class Target:
         turning: both hold over a full turn of the crank; without it an open curve's hold on the drawn part.
     """
 
-    def __init__(
-        self, curve: Complexes, closed: bool, least: float, largest: float, turning: bool = True
-    ) -> None:
+    def __init__(self, curve: Complexes, closed: bool, least: float, largest: float, turning: bool = True) -> None:
         self.given = curve, closed, least, largest, turning
         even = even_points(curve, LINE, closed)
         self.closed, self.least, self.largest, self.turning = closed, least, largest, turning or closed
@@ -72,8 +70,8 @@ class Target:
         return Target, self.given
 
     def descend(
-        self, design: Design, iterations: int, fineness: Fineness = MIDDLE, *, weight: float = 1.0, more: float = 0.0,
-    ) -> Design:  # fmt: skip
+        self, design: Design, iterations: int, fineness: Fineness = MIDDLE, *, weight: float = 1.0, more: float = 0.0
+    ) -> Design:
         """The design after a descent.
 
         ``weight``: of the penalties; ``more``: angle (rad) above the minimum.
@@ -84,9 +82,17 @@ class Target:
         options = np.array(limits)
         arrays = [each.ctypes.data for each in (x, points, options, _ROOM.array)]
         value = kernels()(
-            "descend", design.nodes.ctypes.data, design.joints, fineness.drawn, self._poses(fineness),
-            int(self.closed), *arrays[:2], fineness.points, *arrays[2:], iterations,
-        )  # fmt: skip
+            "descend",
+            design.nodes.ctypes.data,
+            design.joints,
+            fineness.drawn,
+            self._poses(fineness),
+            int(self.closed),
+            *arrays[:2],
+            fineness.points,
+            *arrays[2:],
+            iterations,
+        )
         return replace(design, x=x, value=value)
 
     def misses(self, design: Design) -> Floats:
@@ -95,9 +101,16 @@ class Target:
         found = np.zeros(2 * COARSE.points)
         arrays = [each.ctypes.data for each in (design.x, points)]
         kernels()(
-            "misses", design.nodes.ctypes.data, design.joints, MIDDLE.drawn, int(self.closed), *arrays, COARSE.points,
-            _ROOM.array.ctypes.data, found.ctypes.data,
-        )  # fmt: skip
+            "misses",
+            design.nodes.ctypes.data,
+            design.joints,
+            MIDDLE.drawn,
+            int(self.closed),
+            *arrays,
+            COARSE.points,
+            _ROOM.array.ctypes.data,
+            found.ctypes.data,
+        )
         if design.mirror:
             found[COARSE.points :] *= -1
         return np.asarray(found / (np.linalg.norm(found) + 1e-300))
@@ -111,9 +124,21 @@ class Target:
         arrays = [each.ctypes.data for each in (options, _ROOM.array)]
         results = [each.ctypes.data for each in (made, x, counts, gains)]
         kernels()(
-            "promises", design.nodes.ctypes.data, design.joints, MIDDLE.drawn, self._poses(MIDDLE), int(self.closed),
-            own.ctypes.data, points.ctypes.data, COARSE.points, *arrays, draws, numbers.ctypes.data, most, *results,
-        )  # fmt: skip
+            "promises",
+            design.nodes.ctypes.data,
+            design.joints,
+            MIDDLE.drawn,
+            self._poses(MIDDLE),
+            int(self.closed),
+            own.ctypes.data,
+            points.ctypes.data,
+            COARSE.points,
+            *arrays,
+            draws,
+            numbers.ctypes.data,
+            most,
+            *results,
+        )
         return [
             Design(made[k, : 4 * counts[k]].copy(), x[k, : 2 * counts[k] - 1].copy(), design.mirror)
             for k in np.argsort(-gains, kind="stable")
@@ -141,9 +166,7 @@ class Target:
         count, room = BETWEEN * FINE.drawn, _ROOM.array
         nodes, x, places = (each.ctypes.data for each in (design.nodes, design.x, room))
         own, other = (design.joints - 1) * count, design.joints * count
-        kernels()(
-            "place", nodes, design.joints, count, count, int(self.closed), x, places, places + 8 * other
-        )
+        kernels()("place", nodes, design.joints, count, count, int(self.closed), x, places, places + 8 * other)
         curve = room[own : own + count] + 1j * room[other + own : other + own + count]
         steps = np.abs(np.diff(curve))
         if steps.max() > STEP * steps.sum():

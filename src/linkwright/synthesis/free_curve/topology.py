@@ -81,9 +81,7 @@ class Design:
 @cache
 def kernels() -> Kernels:
     """The compiled functions."""
-    return Kernels(
-        [*PLACING, *SLIDING, place, *DISTANCES, *DEVIATION, *DESCENT, *SAMPLING, *PROMISES, *LIKENESS]
-    )
+    return Kernels([*PLACING, *SLIDING, place, *DISTANCES, *DEVIATION, *DESCENT, *SAMPLING, *PROMISES, *LIKENESS])
 
 
 def flat(rows: list[Node]) -> Integers:

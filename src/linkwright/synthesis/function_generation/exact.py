@@ -129,9 +129,7 @@ def families(
     elif zeros[1] is None:
         pairs = np.array([(i, o) for i in inputs for o in zero_angles(phi + i, psi, "output")]).reshape(-1, 2)
     else:
-        pairs = np.array([(i, outputs[0]) for i in zero_angles(phi, psi + outputs[0], "input")]).reshape(
-            -1, 2
-        )
+        pairs = np.array([(i, outputs[0]) for i in zero_angles(phi, psi + outputs[0], "input")]).reshape(-1, 2)
     found = freudenstein(phi + pairs[:, :1], psi + pairs[:, 1:])
     return pairs, found.lengths, found
 

@@ -15,20 +15,9 @@ from linkwright.core.progress import current_progress, part_of
 from linkwright.core.quantity import number
 from linkwright.synthesis.assessment import assess_four_bars
 from linkwright.synthesis.build import four_bar_candidate
-from linkwright.synthesis.function_generation.exact import (
-    Freudenstein,
-    families,
-    freudenstein,
-    harmonics,
-)
+from linkwright.synthesis.function_generation.exact import Freudenstein, families, freudenstein, harmonics
 from linkwright.synthesis.function_generation.fit import HOLDS, TRIED, FunctionDemand, Quality, fit
-from linkwright.synthesis.function_generation.generators import (
-    KINDS,
-    GearedFiveBar,
-    Generator,
-    Run,
-    TurningFourBar,
-)
+from linkwright.synthesis.function_generation.generators import KINDS, GearedFiveBar, Generator, Run, TurningFourBar
 from linkwright.synthesis.merit import merit
 from linkwright.synthesis.names import DEFECTS, TYPE_NAMES
 from linkwright.synthesis.requirements.slider_crank import multiple, positive
@@ -173,8 +162,9 @@ def _rounded(found: Synthesis, demand: FunctionDemand, quality: Quality, roundin
     """
     positive(rounding=rounding)
     made = [(each, _of_multiples(each, found, demand, rounding)) for each in found]
-    good = [one for each, one in made
-            if one is not None and set(one.defects) <= set(each.defects) and quality.of(one)[0]]  # fmt: skip
+    good = [
+        one for each, one in made if one is not None and set(one.defects) <= set(each.defects) and quality.of(one)[0]
+    ]
     if not good or good[0] is not made[0][1]:
         raise SynthesisError(TOO_ROUNDED.format(value=f"{1e3 * rounding:g}"), found)
     derivation = found.derivation
@@ -189,9 +179,7 @@ def _sides(each: Candidate) -> tuple[float, float, float, float]:
     return abs(a - o1), abs(b - a), abs(b - o2), abs(o2 - o1)
 
 
-def _of_multiples(
-    each: Candidate, found: Synthesis, demand: FunctionDemand, rounding: float
-) -> Candidate | None:
+def _of_multiples(each: Candidate, found: Synthesis, demand: FunctionDemand, rounding: float) -> Candidate | None:
     """A four-bar with rounded lengths and the same zero angles; None where a length vanishes or it does not close."""
     a, b, c, frame = (multiple(length, rounding) for length in _sides(each))
     if not min(a, b, c, frame) > 0:
@@ -208,9 +196,14 @@ def _of_multiples(
 
 
 def _applicable(
-    linkage: str, outputs: ArrayLike, places: ArrayLike | None, frame: float | None, gear_ratio: float | None,
-    equation_error: bool, rounding: float | None,
-) -> None:  # fmt: skip
+    linkage: str,
+    outputs: ArrayLike,
+    places: ArrayLike | None,
+    frame: float | None,
+    gear_ratio: float | None,
+    equation_error: bool,
+    rounding: float | None,
+) -> None:
     """Raises SynthesisError for a demand that the kind of linkage does not have."""
     slider = linkage == "slider_crank"
     if places is not None and np.size(outputs):
@@ -248,8 +241,7 @@ def _check(x: Floats, y: Floats, linkage: str, frame: float) -> None:
     if x.ndim != 1 or x.shape != y.shape or not np.isfinite(np.concatenate([x, y])).all():
         raise SynthesisError(
             _(
-                "inputs and outputs must be lists of the same number of finite values; given: {inputs} "
-                "and {outputs}",
+                "inputs and outputs must be lists of the same number of finite values; given: {inputs} and {outputs}",
                 code="synthesize.function.values",
                 inputs=x.size,
                 outputs=y.size,
@@ -308,9 +300,7 @@ def _distinct(x: Floats, y: Floats, fitting: bool) -> None:
 
 
 def _exact(demand: FunctionDemand, quality: Quality, frame: float, count: int, seed: int) -> Synthesis:
-    zeros, lengths, equation = families(
-        demand.inputs, demand.outputs, (demand.input_zero, demand.output_zero)
-    )
+    zeros, lengths, equation = families(demand.inputs, demand.outputs, (demand.input_zero, demand.output_zero))
     usable = np.isfinite(lengths).all(1) & (np.abs(lengths) > 1e-3).all(1) & (np.abs(lengths) < 1e3).all(1)
     zeros, lengths = zeros[usable], lengths[usable]
     equation = None if equation is None else equation[usable]
@@ -370,9 +360,7 @@ def _exact(demand: FunctionDemand, quality: Quality, frame: float, count: int, s
     return result
 
 
-def _way_of(
-    demand: FunctionDemand, zeros: Floats, equation: Freudenstein | None, frame: float
-) -> FunctionDerivation:
+def _way_of(demand: FunctionDemand, zeros: Floats, equation: Freudenstein | None, frame: float) -> FunctionDerivation:
     """How an exact four-bar with these zero angles was found."""
     free = (demand.input_zero is None, demand.output_zero is None)
     x, y = demand.inputs, demand.outputs
@@ -479,9 +467,7 @@ def _fitted(
     name = "angle" if generator.output_is_angle else "length"
     target = np.stack([demand.inputs, demand.outputs])
     derivation = _searched(generator, demand, chosen[0], frame, len(made)) if chosen else None
-    result = Synthesis(
-        "function", chosen, name, target, {"optima": len(made)}, extent=extent, derivation=derivation
-    )
+    result = Synthesis("function", chosen, name, target, {"optima": len(made)}, extent=extent, derivation=derivation)
     if not good:
         raise _short(quality, result, generator.name, "fitted")
     return result
@@ -495,9 +481,17 @@ def _searched(
     unknowns = generator.sample(np.random.default_rng(0), 1).shape[1] - (not free[0])
     zeros = best.values["input_zero [rad]"], demand.output_zero or 0.0
     return FunctionDerivation(
-        "search", demand.inputs, demand.outputs, zeros, free, frame, generator.name,
-        unknowns=unknowns, starts=TRIED, optima=optima,
-    )  # fmt: skip
+        "search",
+        demand.inputs,
+        demand.outputs,
+        zeros,
+        free,
+        frame,
+        generator.name,
+        unknowns=unknowns,
+        starts=TRIED,
+        optima=optima,
+    )
 
 
 def _by_quality(made: list[Candidate], quality: Quality) -> tuple[Candidate, ...]:
@@ -536,11 +530,19 @@ def _candidate(
         "scale": float(factor[0]),
     }
     return Candidate(
-        linkage, float(np.sqrt((off**2).mean())), _type(generator, at), defects, turns,
-        float(np.arcsin(min(sine, 1.0))), float(lengths.max() / lengths.min()),
-        worst=float(np.abs(off).max()), curve=curve, values=values,
-        positions={name: places[0] * scale for name, places in at.points.items()}, deviations=off[0],
-    )  # fmt: skip
+        linkage,
+        float(np.sqrt((off**2).mean())),
+        _type(generator, at),
+        defects,
+        turns,
+        float(np.arcsin(min(sine, 1.0))),
+        float(lengths.max() / lengths.min()),
+        worst=float(np.abs(off).max()),
+        curve=curve,
+        values=values,
+        positions={name: places[0] * scale for name, places in at.points.items()},
+        deviations=off[0],
+    )
 
 
 def _type(generator: Generator, run: Run) -> str:
@@ -552,6 +554,4 @@ def _type(generator: Generator, run: Run) -> str:
     from linkwright.synthesis.assessment import TYPES, grashof_types
 
     o1, a, b, o2 = (run.points[name][0, 0] for name in ("O1", "A", "B", "O2"))
-    return TYPES[
-        int(grashof_types(np.array([[abs(a - o1)], [abs(b - a)], [abs(b - o2)], [abs(o2 - o1)]]))[0])
-    ]
+    return TYPES[int(grashof_types(np.array([[abs(a - o1)], [abs(b - a)], [abs(b - o2)], [abs(o2 - o1)]]))[0])]

@@ -61,9 +61,7 @@ class Generator(ABC):
         everywhere. Signs never change where none is 0: the linkage stays on its circuit and branch.
         """
 
-    def _distance_squared(
-        self, x: Floats, signs: Floats, first: str, second: str
-    ) -> Callable[[Floats], Floats]:
+    def _distance_squared(self, x: Floats, signs: Floats, first: str, second: str) -> Callable[[Floats], Floats]:
         """Distance of two points as a function of the input angle."""
 
         def distance(angles: Floats) -> Floats:
@@ -201,9 +199,14 @@ class SliderCrank(Generator):
         guide = Guide("frame", "O1", 0.0, "slider", "B", points["B"].imag - points["O1"].imag)
         forward = "forward" if points["B"].real > points["A"].real else "backward"
         return Linkage(
-            "slider_crank", points, ("O1",), links, (next(iter(links)), "O1"), guides={"guide": guide},
+            "slider_crank",
+            points,
+            ("O1",),
+            links,
+            (next(iter(links)), "O1"),
+            guides={"guide": guide},
             assembly={"B": forward},
-        )  # fmt: skip
+        )
 
 
 class Watt(Generator):
@@ -218,9 +221,7 @@ class Watt(Generator):
 
     def sample(self, rng: np.random.Generator, count: int) -> Floats:
         first = FourBar().sample(rng, count)
-        return np.column_stack(
-            [first, rng.uniform(-1.4, 1.4, (count, 3)), rng.uniform(0, 2 * np.pi, (count, 2))]
-        )
+        return np.column_stack([first, rng.uniform(-1.4, 1.4, (count, 3)), rng.uniform(0, 2 * np.pi, (count, 2))])
 
     def run(self, x: Floats, signs: Floats, angles: Floats) -> Run:
         first = FourBar().run(x[:, :4], signs, angles)
@@ -243,9 +244,12 @@ class Watt(Generator):
 
     def linkage(self, points: dict[str, complex], turns: bool) -> Linkage:
         links = {
-            "input": ("O1", "A"), "coupler": ("A", "B"), "ternary": ("O2", "B", "C"), "second_coupler": ("C", "D"),
+            "input": ("O1", "A"),
+            "coupler": ("A", "B"),
+            "ternary": ("O2", "B", "C"),
+            "second_coupler": ("C", "D"),
             "output": ("O3", "D"),
-        }  # fmt: skip
+        }
         return Linkage("watt", points, ("O1", "O2", "O3"), links, ("input", "O1"))
 
 
@@ -286,9 +290,12 @@ class Stephenson(Generator):
 
     def linkage(self, points: dict[str, complex], turns: bool) -> Linkage:
         links = {
-            "input": ("O1", "A"), "coupler": ("A", "B", "P"), "rocker": ("O2", "B"), "link": ("P", "Q"),
+            "input": ("O1", "A"),
+            "coupler": ("A", "B", "P"),
+            "rocker": ("O2", "B"),
+            "link": ("P", "Q"),
             "output": ("O3", "Q"),
-        }  # fmt: skip
+        }
         return Linkage("stephenson", points, ("O1", "O2", "O3"), links, ("input", "O1"))
 
 

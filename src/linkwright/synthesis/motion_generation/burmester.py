@@ -184,12 +184,15 @@ def _polished(x: Complexes, d: Complexes, e: Complexes, use: Flags) -> Complexes
         z, zc, c, cc = (x[..., k] for k in range(4))
         one, zero = np.ones_like(z), np.zeros_like(z)
         monomials = np.stack([z * cc, zc * c, z, zc, c, cc, one], -1)
-        slopes = np.stack([
-            np.stack([cc, zero, one, zero, zero, zero, zero], -1),
-            np.stack([zero, c, zero, one, zero, zero, zero], -1),
-            np.stack([zero, zc, zero, zero, one, zero, zero], -1),
-            np.stack([z, zero, zero, zero, zero, one, zero], -1),
-        ], -1)  # fmt: skip
+        slopes = np.stack(
+            [
+                np.stack([cc, zero, one, zero, zero, zero, zero], -1),
+                np.stack([zero, c, zero, one, zero, zero, zero], -1),
+                np.stack([zero, zc, zero, zero, one, zero, zero], -1),
+                np.stack([z, zero, zero, zero, zero, one, zero], -1),
+            ],
+            -1,
+        )
         f = (rows @ monomials[..., None])[..., 0]
         jacobian = rows @ slopes
         good = use & np.isfinite(jacobian).all((-1, -2)) & (np.abs(c) < FAR)

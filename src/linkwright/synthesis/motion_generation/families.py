@@ -61,8 +61,7 @@ def dyads(p: Complexes, phi: Floats, window: Window) -> Dyads:
         return _five(p, phi)
     if len(p) == 4:
         found = join(
-            circles(circle_points(d, e, _shifted(window, p)), p, d, e),
-            sliders(_slider_of_four(d, e), p, d, e),
+            circles(circle_points(d, e, _shifted(window, p)), p, d, e), sliders(_slider_of_four(d, e), p, d, e)
         )
     elif len(p) == 3:
         found = join(circles(_grid(window, p), p, d, e), sliders(_sliders_of_three(d, e), p, d, e))

@@ -12,22 +12,9 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Complexes, Flags, Floats, Integers
 from linkwright.synthesis.assessment import Assessment, assess_four_bars, assess_slider_cranks
-from linkwright.synthesis.build import (
-    candidate,
-    four_bar_candidate,
-    path_of_four_bar,
-    slider_crank,
-    working_span,
-)
+from linkwright.synthesis.build import candidate, four_bar_candidate, path_of_four_bar, slider_crank, working_span
 from linkwright.synthesis.merit import extent_of, merit
-from linkwright.synthesis.motion_generation.burmester import (
-    Dyads,
-    centres,
-    circles,
-    five_poses,
-    join,
-    relative_poses,
-)
+from linkwright.synthesis.motion_generation.burmester import Dyads, centres, circles, five_poses, join, relative_poses
 from linkwright.synthesis.motion_generation.families import (
     LINES,
     Window,
@@ -142,9 +129,7 @@ def motion_generation(
     if not good:
         nearest = replace(found, candidates=tuple(sorted(found, key=lambda each: each.link_ratio)))
         smallest_ratio = f"{math.ceil(1e3 * nearest.best.link_ratio) / 1e3:g}"
-        raise SynthesisError(
-            LINK_RATIO_UNMET.format(value=f"{link_ratio:g}", minimum=smallest_ratio), nearest
-        )
+        raise SynthesisError(LINK_RATIO_UNMET.format(value=f"{link_ratio:g}", minimum=smallest_ratio), nearest)
     return replace(found, candidates=good)
 
 
@@ -157,10 +142,7 @@ def _derivation(p: Complexes, phi: Floats, link_ratio: float) -> MotionDerivatio
     if len(p) == 4:
         d_inverse, phi_inverse = inverse_poses(p, phi)
         size = _scale(p)
-        both = [
-            cubic_coefficients(d, e, size),
-            cubic_coefficients(d_inverse, np.exp(1j * phi_inverse), size),
-        ]
+        both = [cubic_coefficients(d, e, size), cubic_coefficients(d_inverse, np.exp(1j * phi_inverse), size)]
         return MotionDerivation(p, phi, link_ratio, size=size, circle_curve=both[0], centre_curve=both[1])
     return MotionDerivation(p, phi, link_ratio)
 
@@ -179,17 +161,20 @@ def _applicable(phi: Floats, within: object, line: object, **pivots: Sequence[ob
         raise SynthesisError(NOT_WITH.format(demand="pivot_line", other=f'"{named[0]}"'))
     if within is not None and sum(len(places) for places in pivots.values()) > 1:
         raise SynthesisError(
-            NOT_WITH.format(
-                demand="within", other=_("two or more given pivots", code="synthesize.motion.two_pivots")
-            )
+            NOT_WITH.format(demand="within", other=_("two or more given pivots", code="synthesize.motion.two_pivots"))
         )
 
 
 def _guided(
-    p: Complexes, phi: Floats, within: tuple[tuple[float, float], tuple[float, float]] | None,
-    fixed_pivots: Sequence[tuple[float, float]], moving_pivots: Sequence[tuple[float, float]],
-    pivot_line: Sequence[Sequence[float]] | None, link_ratio: float, count: int,
-) -> Synthesis:  # fmt: skip
+    p: Complexes,
+    phi: Floats,
+    within: tuple[tuple[float, float], tuple[float, float]] | None,
+    fixed_pivots: Sequence[tuple[float, float]],
+    moving_pivots: Sequence[tuple[float, float]],
+    pivot_line: Sequence[Sequence[float]] | None,
+    link_ratio: float,
+    count: int,
+) -> Synthesis:
     """The linkages that take the poses, those within the ratio of links first."""
     if np.isnan(phi).any():
         return _mixed(p, phi, link_ratio, count)
@@ -214,9 +199,15 @@ def _guided(
     counts["pairs"] = len(found) * (len(found) - 1) // 2
     curves = _curves(p, phi, window) if len(p) == 4 else {}
     result = Synthesis(
-        "motion", chosen, "deviation", _shown(p, phi), counts, curves=curves, extent=extent_of(p),
+        "motion",
+        chosen,
+        "deviation",
+        _shown(p, phi),
+        counts,
+        curves=curves,
+        extent=extent_of(p),
         derivation=_derivation(p, phi, link_ratio),
-    )  # fmt: skip
+    )
     if not chosen:
         raise SynthesisError(MOTION_NO_PAIRS)
     if all(each.defects for each in chosen):
@@ -346,9 +337,7 @@ def _mixed(p: Complexes, phi: Floats, link_ratio: float, count: int) -> Synthesi
     made: list[Candidate] = []
     for angles, pair, squares in mixed_solutions(p, phi) if every is None or not every[0] else every[0]:
         for first, second in ((0, 1), (1, 0)):
-            made += _pairs(
-                pair[np.array([first, second])], np.array([squares, 0.0]), p, angles, link_ratio, 1
-            )
+            made += _pairs(pair[np.array([first, second])], np.array([squares, 0.0]), p, angles, link_ratio, 1)
     size = _scale(p)
     chosen = different(ranked(made, size, extent_of(p)), 0.02 * size)[:count]
     if not chosen:
@@ -381,9 +370,13 @@ def _mixed(p: Complexes, phi: Floats, link_ratio: float, count: int) -> Synthesi
 
 
 def _all_dyads(
-    p: Complexes, phi: Floats, window: Window, fixed: Sequence[tuple[float, float]],
-    moving: Sequence[tuple[float, float]], line: Sequence[Sequence[float]] | None,
-) -> tuple[Dyads, Floats]:  # fmt: skip
+    p: Complexes,
+    phi: Floats,
+    window: Window,
+    fixed: Sequence[tuple[float, float]],
+    moving: Sequence[tuple[float, float]],
+    line: Sequence[Sequence[float]] | None,
+) -> tuple[Dyads, Floats]:
     """Dyads and the squared errors of their lengths."""
     if line is not None:
         if len(p) not in (3, 4):
@@ -499,9 +492,7 @@ def _candidate(
     if not found.slides[j]:
         o2 = complex(found.centre[j])
         curve = path_of_four_bar(o1, a[0], b[0], o2, p[0])
-        return four_bar_candidate(
-            o1, a, b, o2, facts, k, error, p=complex(p[0]), worst=error, curve=curve, path=p
-        )
+        return four_bar_candidate(o1, a, b, o2, facts, k, error, p=complex(p[0]), worst=error, curve=curve, path=p)
     direction = complex(found.direction[j])
     span = working_span(facts, k, cmath.phase(direction))
     turns = bool(facts.turns[k])

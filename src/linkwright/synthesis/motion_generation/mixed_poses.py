@@ -35,9 +35,7 @@ def counted_solutions(p: Complexes, phi: Floats) -> tuple[list[Solution], int, i
     """
     posed = np.flatnonzero(~np.isnan(phi))
     first = int(posed[0]) if len(posed) else 0
-    order = np.concatenate(
-        [[first], np.setdiff1d(posed, [first]), np.setdiff1d(np.arange(len(p)), [*posed, first])]
-    )
+    order = np.concatenate([[first], np.setdiff1d(posed, [first]), np.setdiff1d(np.arange(len(p)), [*posed, first])])
     order = order.astype(np.int64)
     base = phi[first] if len(posed) else 0.0
     d = p[order[1:]] - p[first]
@@ -62,9 +60,7 @@ def counted_solutions(p: Complexes, phi: Floats) -> tuple[list[Solution], int, i
     )
 
 
-def _solution(
-    u: Complexes, g: Complexes, p: Complexes, order: Integers, base: float, scale: float
-) -> Solution:
+def _solution(u: Complexes, g: Complexes, p: Complexes, order: Integers, base: float, scale: float) -> Solution:
     """A solution in the order of the places as they were given."""
     angles = np.empty(len(p))
     angles[order] = base + np.concatenate([[0.0], np.angle(1 + g)])

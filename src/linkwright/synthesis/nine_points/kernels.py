@@ -140,9 +140,7 @@ def empty(lane: int, row: Reals, u: Reals) -> None:
         row[2 * c + 1] = u[WIDE * c + 8 + lane]
 
 
-def attempt(
-    u: Reals, t: Reals, h: Reals, q0: Reals, dq: Reals, room: Reals, sizes: Reals, moved: Reals
-) -> None:
+def attempt(u: Reals, t: Reals, h: Reals, q0: Reals, dq: Reals, room: Reals, sizes: Reals, moved: Reals) -> None:
     """A step of eight paths: where it leads, and the squared sizes of its two corrections."""
     S, q, v = room, room + WIDE * (SYSTEM + PARTS), room + WIDE * (SYSTEM + PARTS + 16)
     k1, k2 = v + WIDE * RATES, v + WIDE * 2 * RATES
@@ -261,8 +259,5 @@ def carry(count: int, rows: Reals, q0: Reals, dq: Reals, arrived: Reals, limits:
 def kernels() -> Kernels:
     """The compiled functions."""
     return Kernels(
-        [
-            eliminate, linear_step, relative_size, place, ahead, fill, empty, attempt, fifth_root, begin, proceed,
-            carry,
-        ]
-    )  # fmt: skip
+        [eliminate, linear_step, relative_size, place, ahead, fill, empty, attempt, fifth_root, begin, proceed, carry]
+    )

@@ -62,9 +62,14 @@ class Places:
 
 
 def track(
-    start: Complexes, q0: Complexes, q1: Complexes, *,
-    tolerance: float = TOLERANCE, most: int = MOST_STEPS, rounding: float = ROUNDING,
-) -> Ends:  # fmt: skip
+    start: Complexes,
+    q0: Complexes,
+    q1: Complexes,
+    *,
+    tolerance: float = TOLERANCE,
+    most: int = MOST_STEPS,
+    rounding: float = ROUNDING,
+) -> Ends:
     """Solutions (N, 16) of the points q0 (2, 8) carried to the points q1, in compiled code.
 
     A second correction below ``rounding`` is taken for the rounding of ill-conditioned solutions.
@@ -102,9 +107,13 @@ def residual(u: Complexes, q: Complexes) -> Floats:
 
 
 def carried(
-    start: Complexes, first: Places, last: Places,
-    tolerance: float = TOLERANCE, most: int = MOST_STEPS, rounding: float = ROUNDING,
-) -> Ends:  # fmt: skip
+    start: Complexes,
+    first: Places,
+    last: Places,
+    tolerance: float = TOLERANCE,
+    most: int = MOST_STEPS,
+    rounding: float = ROUNDING,
+) -> Ends:
     """Solutions (N, 8 + points) of the places ``first`` carried straight to ``last``, until every path has arrived or
     is abandoned."""
     done, arrived = start.T.copy(), np.zeros(len(start), bool)
@@ -137,9 +146,7 @@ def carried(
     return Ends(polished(done.T, arrived, last), arrived)
 
 
-def _predicted(
-    u: Complexes, t: Floats, h: Floats, tangent: Callable[[Complexes, Floats], Complexes]
-) -> Complexes:
+def _predicted(u: Complexes, t: Floats, h: Floats, tangent: Callable[[Complexes, Floats], Complexes]) -> Complexes:
     """A step of Runge and Kutta's fourth order."""
     k1 = tangent(u, t)
     k2 = tangent(u + (0.5 * h) * k1, t + 0.5 * h)
@@ -169,8 +176,9 @@ def _carried_compiled(
     from linkwright.synthesis.nine_points.kernels import ROOM, kernels
 
     rows, arrived, room = start.copy(), np.zeros(len(start)), np.zeros(ROOM)
-    along = [_in_lanes(np.concatenate(each), LANES)
-             for each in ((first.d, first.e), (last.d - first.d, last.e - first.e))]  # fmt: skip
+    along = [
+        _in_lanes(np.concatenate(each), LANES) for each in ((first.d, first.e), (last.d - first.d, last.e - first.e))
+    ]
     limits = np.array([tolerance, SMALLEST_STEP, LARGEST_STEP, most, rounding])
     places = [each.ctypes.data for each in (rows, *along, arrived, limits)]
     kernels()("carry", len(rows), *places, room.ctypes.data)

@@ -93,9 +93,7 @@ class BoundedPaths:
         boxes += [(-1.0, 1.0)] * (m - self.inner - 1 - int(self.turned)) + [(None, None)] * int(self.turned)
         limits = {"type": "ineq", "fun": room, "jac": room_slope}
         options = {"maxiter": steps, "ftol": tolerance}
-        done = minimize(
-            value, measures, jac=True, method="SLSQP", bounds=boxes, constraints=limits, options=options
-        )
+        done = minimize(value, measures, jac=True, method="SLSQP", bounds=boxes, constraints=limits, options=options)
         inside = np.isfinite(done.x).all() and float(room(done.x).min()) > -1e-9
         return np.asarray(done.x) if inside and done.fun < value(measures)[0] else measures
 

@@ -145,16 +145,13 @@ def _nine(z: Complexes, found: NinePoints, count: int, seed: int) -> Synthesis:
     return result
 
 
-def _candidate(
-    z: Complexes, pivots: list[Complexes], pins: list[Complexes], facts: Assessment, i: int
-) -> Candidate:
+def _candidate(z: Complexes, pivots: list[Complexes], pins: list[Complexes], facts: Assessment, i: int) -> Candidate:
     o1, o2 = (complex(each[i]) for each in pivots)
     a, b = (each[i] for each in pins)
     lengths = [np.ptp(np.abs(pin - pivot)) for pin, pivot in ((a, o1), (b, o2))]
     curve = path_of_four_bar(o1, a[0], b[0], o2, z[0])
     error = float(max(lengths))
-    made = four_bar_candidate(
-        o1, a, b, o2, facts, i, error**2, p=complex(z[0]), worst=error, curve=curve, path=z
+    made = four_bar_candidate(o1, a, b, o2, facts, i, error**2, p=complex(z[0]), worst=error, curve=curve, path=z)
+    return replace(
+        made, deviations=np.maximum(*(np.abs(pin - pivot) - abs(pin[0] - pivot) for pin, pivot in ((a, o1), (b, o2))))
     )
-    return replace(made, deviations=np.maximum(*(np.abs(pin - pivot) - abs(pin[0] - pivot)
-                                                 for pin, pivot in ((a, o1), (b, o2)))))  # fmt: skip

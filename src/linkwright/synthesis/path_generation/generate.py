@@ -97,9 +97,7 @@ def path_generation(
     extent = extent_of(demand.points)
     chosen = different(ranked(candidates, demand.size**2, extent), SAME_LINKAGE * demand.size)[:count]
     if not chosen:
-        raise SynthesisError(
-            _("no four-bar was found for the path; check the points", code="synthesize.path.none")
-        )
+        raise SynthesisError(_("no four-bar was found for the path; check the points", code="synthesize.path.none"))
     notes = (
         (
             _(
@@ -112,9 +110,7 @@ def path_generation(
         else ()
     )
     derivation = PathDerivation(demand, transmission_angle, len(candidates))
-    result = Synthesis(
-        "path", chosen, "squares", demand.points, notes=notes, extent=extent, derivation=derivation
-    )
+    result = Synthesis("path", chosen, "squares", demand.points, notes=notes, extent=extent, derivation=derivation)
     _contradictions(demand, bound, result)
     return result
 
@@ -161,17 +157,16 @@ def _contradictions(demand: Demand, bound: float | None, result: Synthesis) -> N
 
 
 def _demand(
-    points: ArrayLike, angles: ArrayLike | None, phase: bool, pivot: tuple[float, float] | None,
+    points: ArrayLike,
+    angles: ArrayLike | None,
+    phase: bool,
+    pivot: tuple[float, float] | None,
     direction: float | None,
-) -> Demand:  # fmt: skip
+) -> Demand:
     z = complex_points(points)
     if len(z) < 3:
         raise SynthesisError(
-            _(
-                "{count} points are too few for a path; give 3 or more",
-                code="synthesize.path.few",
-                count=len(z),
-            )
+            _("{count} points are too few for a path; give 3 or more", code="synthesize.path.few", count=len(z))
         )
     theta = np.zeros(len(z)) if angles is None else np.asarray(angles, float)
     if theta.shape != z.shape or not np.isfinite(theta).all():
@@ -232,10 +227,18 @@ def _candidates(found: Found) -> list[Candidate]:
     error = (off**2).sum(1)
     made = [
         four_bar_candidate(
-            complex(pivot[i, 0]), pin_a[i], pin_b[i], complex(o2[i, 0]), facts, i, error[i], p=complex(p[i, 0]),
-            worst=off[i].max(), path=p[i],
+            complex(pivot[i, 0]),
+            pin_a[i],
+            pin_b[i],
+            complex(o2[i, 0]),
+            facts,
+            i,
+            error[i],
+            p=complex(p[i, 0]),
+            worst=off[i].max(),
+            path=p[i],
             curve=path_of_four_bar(complex(pivot[i, 0]), pin_a[i, 0], pin_b[i, 0], complex(o2[i, 0]), p[i, 0]),
         )
         for i in range(len(free))
-    ]  # fmt: skip
+    ]
     return [replace(each, deviations=off[i]) for i, each in enumerate(made)]

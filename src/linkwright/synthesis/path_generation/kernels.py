@@ -197,9 +197,7 @@ def project(layout: Wholes, data: Reals, start: Reals, room: Reals) -> float:
             columns(layout, data, start, own, row)
             for i in range(count):
                 for c in range(i, count):
-                    N[(count + 1) * i + c] += weight * (
-                        row[2 * i] * row[2 * c] + row[2 * i + 1] * row[2 * c + 1]
-                    )
+                    N[(count + 1) * i + c] += weight * (row[2 * i] * row[2 * c] + row[2 * i + 1] * row[2 * c + 1])
                 N[(count + 1) * i + count] -= weight * (row[2 * i] * own[4] + row[2 * i + 1] * own[5])
         solve(N, count, count, 0.0, row + 40)
         for i in range(count):
@@ -334,11 +332,7 @@ def point_rows(layout: Wholes, data: Reals, start: Reals, room: Reals, damping: 
             own[8 + i] = row[2 * i] * gx + row[2 * i + 1] * gy
         for i in range(m):
             for c in range(i, m):
-                both = (
-                    row[2 * i] * row[2 * c]
-                    + row[2 * i + 1] * row[2 * c + 1]
-                    - own[8 + i] * own[8 + c] / square
-                )
+                both = row[2 * i] * row[2 * c] + row[2 * i + 1] * row[2 * c + 1] - own[8 + i] * own[8 + c] / square
                 N[(m + 1) * i + c] += weight * both
             pulled = row[2 * i] * own[4] + row[2 * i + 1] * own[5] - own[8 + i] * pull / square
             N[(m + 1) * i + m] -= weight * pulled
@@ -442,7 +436,22 @@ def kernels() -> Kernels:
     """The compiled functions."""
     return Kernels(
         [
-            spread_lengths, shape_of, place_points, columns, add_linear, solve, deviate, project, limits, measure,
-            limit_rows, point_rows, attempt, judge, iterate, shift, bring_inside,
+            spread_lengths,
+            shape_of,
+            place_points,
+            columns,
+            add_linear,
+            solve,
+            deviate,
+            project,
+            limits,
+            measure,
+            limit_rows,
+            point_rows,
+            attempt,
+            judge,
+            iterate,
+            shift,
+            bring_inside,
         ]
-    )  # fmt: skip
+    )

@@ -81,9 +81,7 @@ def _nearest(paths: CompiledPaths, last: int) -> CompiledPaths:
     theta = 2 * np.pi * np.arange(PLACES) / PLACES
     a, u = couplers(theta, paths.paths.family.chosen(who).lengths(paths.free))
     path, target = z + alpha * a + beta * u, paths.paths.target(who)
-    angles = np.stack(
-        [theta[np.abs(path - target[:, j : j + 1]).argmin(1)] for j in range(before.shape[1])], 1
-    )
+    angles = np.stack([theta[np.abs(path - target[:, j : j + 1]).argmin(1)] for j in range(before.shape[1])], 1)
     away = np.abs((angles - before + np.pi) % (2 * np.pi) - np.pi) > 4 * np.pi / PLACES
     moved = paths.moved(paths.free[:, :3], np.where(away, angles, before))
     return paths.joined(_iterated(moved.of_starts(moved.starts[away.any(1)]), last)).best(last)
@@ -144,9 +142,7 @@ def _random(
     return family, mirrored, np.column_stack([shape, phase])
 
 
-def _timing(
-    demand: Demand, family: CrankFamily, shape: Floats, rng: np.random.Generator, by_length: bool
-) -> Floats:
+def _timing(demand: Demand, family: CrankFamily, shape: Floats, rng: np.random.Generator, by_length: bool) -> Floats:
     """Crank angles (tried, distinct points): chord lengths over a random part of the range, warped, either way."""
     tried = len(shape)
     chords = np.abs(np.diff(demand.points))

@@ -100,8 +100,7 @@ def crank_rocker(
     if not frame and not rocker:
         raise SynthesisError(
             _(
-                "a crank-rocker needs the length of its frame or of its rocker; give frame: 300 mm or "
-                "rocker: 200 mm",
+                "a crank-rocker needs the length of its frame or of its rocker; give frame: 300 mm or rocker: 200 mm",
                 code="synthesize.crank_rocker.length",
             )
         )
@@ -126,9 +125,7 @@ def crank_rocker(
             swing_angle, quick_return_ratio, frame, rocker=rocker, link_ratio=smallest_ratio, count=1
         )
         raise SynthesisError(
-            LINK_RATIO_UNMET.format(
-                value=f"{link_ratio:g}", minimum=f"{math.ceil(1e3 * smallest_ratio) / 1e3:g}"
-            ),
+            LINK_RATIO_UNMET.format(value=f"{link_ratio:g}", minimum=f"{math.ceil(1e3 * smallest_ratio) / 1e3:g}"),
             nearest,
         )
     notes = (
@@ -161,9 +158,16 @@ def crank_rocker(
         values = {"swing_angle [rad]": swing_angle, "quick_return_ratio": quick_return_ratio}
         found.append(four_bar_candidate(o1, a, b, complex(o2), facts, i, 0.0, values=values))
     derivation = CrankRockerDerivation(
-        swing_angle, quick_return_ratio, frame, rocker, theta, rocker or frame / float(lengths[best]),
-        complex(pivots[best]), _circle_centre(complex(pivots[best]), swing_angle, theta), limit,
-    )  # fmt: skip
+        swing_angle,
+        quick_return_ratio,
+        frame,
+        rocker,
+        theta,
+        rocker or frame / float(lengths[best]),
+        complex(pivots[best]),
+        _circle_centre(complex(pivots[best]), swing_angle, theta),
+        limit,
+    )
     return Synthesis(
         "crank_rocker", tuple(found), counts={"family": int(good.sum())}, notes=notes, derivation=derivation
     )
@@ -208,11 +212,7 @@ def _not_both(swing: float, k: float, frame: float, rocker: float) -> SynthesisE
     theta = angle_between_limits(k)
     rockers = frame / np.abs(_family(swing, theta)[0][_good(swing, theta)])
     near = float(rockers[np.abs(rockers - rocker).argmin()])
-    message = {
-        "frame": number(frame, "length"),
-        "rocker": number(rocker, "length"),
-        "near": number(near, "length"),
-    }
+    message = {"frame": number(frame, "length"), "rocker": number(rocker, "length"), "near": number(near, "length")}
     return SynthesisError(
         _(
             "with this swing angle and K a frame of {frame} mm has no rocker of {rocker} mm; the "
@@ -266,9 +266,7 @@ def _at_distance(swing: float, theta: float, distance: float) -> Complexes:
     images."""
     height, half = math.cos(swing / 2), math.sin(swing / 2)
     if theta == 0:
-        return np.array(
-            [1j * height + math.sqrt(distance**2 - height**2)] if distance > height else [], complex
-        )
+        return np.array([1j * height + math.sqrt(distance**2 - height**2)] if distance > height else [], complex)
     found = []
     for sign in (1, -1):
         centre, radius = height + sign * half / math.tan(theta), half / math.sin(theta)
@@ -290,27 +288,20 @@ def _assess(pivots: Complexes, limits: Complexes) -> tuple[Assessment, tuple[Com
         return assess_four_bars(pivots, *pins, np.zeros(len(pivots), complex)), pins
 
 
-def _limit_positions_right(
-    pivots: Complexes, pins: tuple[Complexes, Complexes], swing: float, theta: float
-) -> Flags:
+def _limit_positions_right(pivots: Complexes, pins: tuple[Complexes, Complexes], swing: float, theta: float) -> Flags:
     """Whether the four-bar of one circuit has the swing and θ: its own limit positions, from its lengths."""
     a, d = np.abs(pins[0][:, 0] - pivots), np.abs(pivots)
     b, c = np.abs(pins[1][:, 0] - pins[0][:, 0]), 1.0
     with np.errstate(invalid="ignore", divide="ignore"):
         ends, sides = (
-            [
-                np.arccos(np.clip((near * near + d * d - far * far) / (2 * near * d), -1, 1))
-                for near, far in pairs
-            ]
+            [np.arccos(np.clip((near * near + d * d - far * far) / (2 * near * d), -1, 1)) for near, far in pairs]
             for pairs in (((c, b + a), (c, b - a)), ((b + a, c), (b - a, c)))
         )
     right_swing = np.abs(np.abs(ends[0] - ends[1]) - swing) < 1e-9
     return np.asarray(right_swing & (np.abs(np.abs(sides[0] - sides[1]) - theta) < 1e-9) & (a > 1e-9))
 
 
-def quick_return(
-    quick_return_ratio: float, frame: float, *, stroke: float = 0.0, rod: float = 0.0
-) -> Synthesis:
+def quick_return(quick_return_ratio: float, frame: float, *, stroke: float = 0.0, rod: float = 0.0) -> Synthesis:
     """A crank with a slotted lever (RPR): crank r = d sin(θ/2), the lever swings θ = π (K - 1)/(K + 1).
 
     With a ``stroke`` (m) the lever's arm is H / (2 sin(θ/2)), and a ram on a guide across the lever's middle position
@@ -379,9 +370,7 @@ def quick_return(
         links |= {"link": ("E", "F"), "ram": ("F",)}
         guides["guide"] = Guide("frame", "O3", 0.0, "ram", "F", height)
         assembly["F"] = "forward"
-    linkage = Linkage(
-        "quick_return", points, ("O1", "O3"), links, ("crank", "O1"), guides=guides, assembly=assembly
-    )
+    linkage = Linkage("quick_return", points, ("O1", "O3"), links, ("crank", "O1"), guides=guides, assembly=assembly)
     values = {"crank [m]": crank, "swing_angle [rad]": theta, "quick_return_ratio": quick_return_ratio}
     if stroke:
         values |= {"arm [m]": arm, "stroke [m]": stroke}
@@ -392,7 +381,13 @@ def quick_return(
     ratio = max(frame, arm) / min(crank, arm)
     each = Candidate(linkage, 0.0, "crank_slotted_lever", (), True, transmission, ratio, values=values)
     derivation = QuickReturnDerivation(
-        quick_return_ratio, frame, theta, crank, arm, stroke,
-        height, abs(points["F"] - points["E"]) if stroke else 0.0,
-    )  # fmt: skip
+        quick_return_ratio,
+        frame,
+        theta,
+        crank,
+        arm,
+        stroke,
+        height,
+        abs(points["F"] - points["E"]) if stroke else 0.0,
+    )
     return Synthesis("quick_return", (each,), derivation=derivation)

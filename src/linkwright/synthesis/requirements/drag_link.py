@@ -64,9 +64,17 @@ def drag_link(quick_return_ratio: float, frame: float, *, link_ratio: float = 5.
     values = {"quick_return_ratio": quick_return_ratio, "follower_angle [rad]": float(best[1])}
     each = four_bar_candidate(complex(o1[0]), a[0], b[0], complex(o2[0]), facts, 0, 0.0, values=values)
     derivation = DragLinkDerivation(
-        quick_return_ratio, frame, link_ratio, math.pi + theta, float(best[1]), float(best[2]),
-        complex(a[0, 0]), complex(a[0, 1]), complex(b[0, 0]), complex(b[0, 1]),
-    )  # fmt: skip
+        quick_return_ratio,
+        frame,
+        link_ratio,
+        math.pi + theta,
+        float(best[1]),
+        float(best[2]),
+        complex(a[0, 0]),
+        complex(a[0, 1]),
+        complex(b[0, 0]),
+        complex(b[0, 1]),
+    )
     return Synthesis("drag_link", (each,), derivation=derivation)
 
 
@@ -117,9 +125,7 @@ def _best(theta: float, link_ratio: float) -> tuple[Floats, float]:
         order = np.argsort(-score)[:BEST]
         if score[order[0]] > value:
             best, value = x[order[0]], float(score[order[0]])
-        x = np.concatenate(
-            [best[None], x[order].repeat(12, 0) + rng.normal(0, 1, (12 * len(order), 3)) * width]
-        )
+        x = np.concatenate([best[None], x[order].repeat(12, 0) + rng.normal(0, 1, (12 * len(order), 3)) * width])
         width = width * 0.6
     return best, value
 

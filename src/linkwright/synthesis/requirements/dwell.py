@@ -151,11 +151,7 @@ def _arcs(crank_angle: float, rng: np.random.Generator) -> Arcs:
     shape = shape[:, keep]
     theta = np.arange(SAMPLES) * 2 * np.pi / SAMPLES
     a, u = couplers(theta, shape)
-    arm = (
-        shape[0]
-        * rng.uniform(0.2, 2.0, len(shape[0]))
-        * np.exp(1j * rng.uniform(-np.pi, np.pi, len(shape[0])))
-    )
+    arm = shape[0] * rng.uniform(0.2, 2.0, len(shape[0])) * np.exp(1j * rng.uniform(-np.pi, np.pi, len(shape[0])))
     p = a + arm[:, None] * u
     index = (np.arange(SAMPLES)[:, None] + np.arange(window)) % SAMPLES
     centre, radius, off = fit_circles(p[:, index])
@@ -193,9 +189,7 @@ def _fan(arcs: Arcs, i: int, swing: float) -> Fan:
     travel = np.ptp(angle, axis=1)
     good = np.isfinite(travel) & (np.abs(sine).min(1) > np.sin(MIN_TRANSMISSION))
     best = int(np.where(good, np.abs(travel - swing), np.inf).argmin())
-    return Fan(
-        float(arm[best]), float(directions.ravel()[best]), float(travel[best]) if good[best] else np.inf
-    )
+    return Fan(float(arm[best]), float(directions.ravel()[best]), float(travel[best]) if good[best] else np.inf)
 
 
 def _output(
@@ -221,9 +215,7 @@ def _output(
     scale = frame / arcs.d[i]
     end = pivot + arm * np.exp(1j * rest[at])
     shown = replace(
-        made,
-        positions={"P": p[at] * scale, "Q": end * scale},
-        deviations=rest[at] - 0.5 * (rest.min() + rest.max()),
+        made, positions={"P": p[at] * scale, "Q": end * scale}, deviations=rest[at] - 0.5 * (rest.min() + rest.max())
     )
     derivation = DwellDerivation(
         crank_angle, swing, frame, theta[at], complex(centre * scale), float(rod * scale), ATLAS, ARCS
@@ -242,9 +234,7 @@ def _minimum_sine(arcs: Arcs, i: int, pivot: complex, arm: float) -> float:
     return min(Stephenson().sines(x[None], np.ones((1, 2)), 0.0, 2 * np.pi))
 
 
-def _follow(
-    p: Complexes, pivot: Complexes, arm: Floats, rod: float, centre: complex
-) -> tuple[Floats, Floats]:
+def _follow(p: Complexes, pivot: Complexes, arm: Floats, rod: float, centre: complex) -> tuple[Floats, Floats]:
     """Angle of the output over the turn (K, n), unwrapped, and the sine of its transmission angle; or NaN."""
     away = p - pivot[:, None]
     square = np.abs(away) ** 2
@@ -285,14 +275,27 @@ def _candidate(
         "stephenson",
         {name: complex(place * scale) for name, place in points.items()},
         ("O1", "O2", "O3"),
-        {"crank": ("O1", "A"), "coupler": ("A", "B", "P"), "rocker": ("O2", "B"),
-         "link": ("P", "Q"), "output": ("O3", "Q")},
+        {
+            "crank": ("O1", "A"),
+            "coupler": ("A", "B", "P"),
+            "rocker": ("O2", "B"),
+            "link": ("P", "Q"),
+            "output": ("O3", "Q"),
+        },
         ("crank", "O1"),
-    )  # fmt: skip
+    )
     lengths = np.array(list(linkage.lengths().values()))
     turn = np.linspace(0, 2 * np.pi, len(angle), endpoint=False)
     values = {"swing_angle [rad]": float(np.ptp(angle)), "radius [m]": float(arcs.radius[i] * scale)}
     return Candidate(
-        linkage, error, "stephenson", (), True, float(np.arcsin(min(sine, 1))), float(lengths.max() / lengths.min()),
-        worst=error, curve=np.stack([turn, angle]), values=values,
-    )  # fmt: skip
+        linkage,
+        error,
+        "stephenson",
+        (),
+        True,
+        float(np.arcsin(min(sine, 1))),
+        float(lengths.max() / lengths.min()),
+        worst=error,
+        curve=np.stack([turn, angle]),
+        values=values,
+    )

@@ -94,9 +94,16 @@ def slider_crank_from_ratios(stroke: float, rod_ratio: float, offset_ratio: floa
     inner = max((rod_ratio - 1) ** 2 - offset_ratio**2, 0.0)
     crank = stroke / (math.sqrt((rod_ratio + 1) ** 2 - offset_ratio**2) - math.sqrt(inner))
     return _result(
-        SliderCrankDerivation("ratios", stroke, crank, rod_ratio * crank, offset_ratio * crank,
-                              rod_ratio=rod_ratio, offset_ratio=offset_ratio)
-    )  # fmt: skip
+        SliderCrankDerivation(
+            "ratios",
+            stroke,
+            crank,
+            rod_ratio * crank,
+            offset_ratio * crank,
+            rod_ratio=rod_ratio,
+            offset_ratio=offset_ratio,
+        )
+    )
 
 
 def slider_crank_from_quick_return(stroke: float, quick_return_ratio: float, offset: float) -> Synthesis:
@@ -142,15 +149,11 @@ def slider_crank_from_quick_return(stroke: float, quick_return_ratio: float, off
     total = stroke**2 / 2 + offset * stroke / math.tan(theta)
     crank, rod = math.sqrt((total - difference) / 2), math.sqrt((total + difference) / 2)
     return _result(
-        SliderCrankDerivation(
-            "quick_return", stroke, crank, rod, offset, quick_return_ratio=quick_return_ratio
-        )
+        SliderCrankDerivation("quick_return", stroke, crank, rod, offset, quick_return_ratio=quick_return_ratio)
     )
 
 
-def slider_crank_from_transmission(
-    stroke: float, transmission_angle: float, offset: float = 0.0
-) -> Synthesis:
+def slider_crank_from_transmission(stroke: float, transmission_angle: float, offset: float = 0.0) -> Synthesis:
     """The slider-crank of a stroke and offset (m) whose transmission angle never falls below the given one (rad).
 
     l = (r + e)/cos μ; r from the stroke, in closed form for e = 0 (r = H/2), else by bisection: the stroke grows
@@ -177,9 +180,7 @@ def slider_crank_from_transmission(
     crank = high if offset else stroke / 2
     rod = (crank + offset) / slope
     return _result(
-        SliderCrankDerivation(
-            "transmission", stroke, crank, rod, offset, transmission_angle=transmission_angle
-        )
+        SliderCrankDerivation("transmission", stroke, crank, rod, offset, transmission_angle=transmission_angle)
     )
 
 

@@ -109,9 +109,7 @@ def straight_line(length: float, *, deviation: float | None = None, kind: str | 
 
 def _straight(names: tuple[str, ...], length: float, allowed: float) -> tuple[Candidate, ...]:
     """Those of the linkages that are straight enough, smallest first."""
-    found = [
-        _peaucellier(length) if name == "peaucellier" else _four_bar(name, length, allowed) for name in names
-    ]
+    found = [_peaucellier(length) if name == "peaucellier" else _four_bar(name, length, allowed) for name in names]
     good = [each for each in found if each is not None]
     return tuple(sorted(good, key=lambda each: each.linkage.longest()))
 
@@ -134,24 +132,10 @@ def _four_bar(name: str, length: float, allowed: float) -> Candidate | None:
     values = {"input_range [rad]": float(theta[last] - theta[first])}
     error = off * abs(scale)
     found = four_bar_candidate(
-        0,
-        pins,
-        joints,
-        o2,
-        facts,
-        0,
-        error,
-        p=complex(path[first] * scale),
-        worst=error,
-        curve=curve,
-        values=values,
+        0, pins, joints, o2, facts, 0, error, p=complex(path[first] * scale), worst=error, curve=curve, values=values
     )
     shown = np.linspace(first, last, SHOWN).round().astype(int)
-    positions = {
-        "A": a[shown] * scale,
-        "B": (a + shape.coupler * unit)[shown] * scale,
-        "P": path[shown] * scale,
-    }
+    positions = {"A": a[shown] * scale, "B": (a + shape.coupler * unit)[shown] * scale, "P": path[shown] * scale}
     off_line = (positions["P"] - positions["P"][0]).imag
     return replace(found, linkage=replace(found.linkage, kind=name), positions=positions, deviations=off_line)
 
@@ -185,23 +169,24 @@ def _peaucellier(length: float) -> Candidate:
     across = 1j * pin / abs(pin)
     middle = pin / abs(pin) * (abs(pin) + power / abs(pin)) / 2
     height = math.sqrt(arm**2 - abs(middle) ** 2)
-    points = {
-        "O1": crank + 0j,
-        "O2": 0j,
-        "A": pin,
-        "B": middle + height * across,
-        "C": middle - height * across,
-    }
+    points = {"O1": crank + 0j, "O2": 0j, "A": pin, "B": middle + height * across, "C": middle - height * across}
     points["P"] = pin / abs(pin) ** 2 * power
     linkage = Linkage(
         "peaucellier",
         {name: scale * place for name, place in points.items()},
         ("O1", "O2"),
-        {"crank": ("O1", "A"), "upper_arm": ("O2", "B"), "lower_arm": ("O2", "C"), "side_1": ("A", "B"),
-         "side_2": ("A", "C"), "side_3": ("B", "P"), "side_4": ("C", "P")},
+        {
+            "crank": ("O1", "A"),
+            "upper_arm": ("O2", "B"),
+            "lower_arm": ("O2", "C"),
+            "side_1": ("A", "B"),
+            "side_2": ("A", "C"),
+            "side_3": ("B", "P"),
+            "side_4": ("C", "P"),
+        },
         ("crank", "O1"),
         span=(-half, half),
-    )  # fmt: skip
+    )
     turn = np.linspace(-half, half, 91)
     pins = crank + crank * np.exp(1j * turn)
     curve = scale * power * pins / np.abs(pins) ** 2
@@ -210,6 +195,15 @@ def _peaucellier(length: float) -> Candidate:
     shown = np.linspace(0, len(turn) - 1, SHOWN).round().astype(int)
     positions = {"A": scale * pins[shown], "P": curve[shown]}
     return Candidate(
-        linkage, 0.0, "peaucellier", (), False, math.asin(sine), arm / crank, curve=curve, values=values,
-        positions=positions, deviations=(curve[shown] - curve[0]).real,
-    )  # fmt: skip
+        linkage,
+        0.0,
+        "peaucellier",
+        (),
+        False,
+        math.asin(sine),
+        arm / crank,
+        curve=curve,
+        values=values,
+        positions=positions,
+        deviations=(curve[shown] - curve[0]).real,
+    )

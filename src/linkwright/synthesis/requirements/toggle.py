@@ -73,12 +73,7 @@ def toggle(force_ratio: float, distance: float, stroke: float) -> Synthesis:
     linkage = slider_crank(0, knee, complex(2 * length * begin), 1, span=(0.002 * first, first), turns=False)
     angle = np.linspace(first, alpha / 4, 181)
     curve = np.stack([2 * length * np.cos(angle), 1 / (2 * np.tan(angle))])
-    values = {
-        "link [m]": length,
-        "angle [rad]": alpha,
-        "first_angle [rad]": first,
-        "force_ratio": force_ratio,
-    }
+    values = {"link [m]": length, "angle [rad]": alpha, "first_angle [rad]": first, "force_ratio": force_ratio}
     transmission = math.pi / 2 - first
     found = Candidate(linkage, 0.0, "toggle", (), False, transmission, 1.0, curve=curve, values=values)
     derivation = ToggleDerivation(force_ratio, distance, stroke, alpha, length, first)

@@ -23,8 +23,7 @@ REASONS = {
         "others lie evenly over it."
     ),
     "drag_link": _(
-        "It has the largest smallest transmission angle that was found, {angle}°, with a ratio "
-        "of links of {ratio}."
+        "It has the largest smallest transmission angle that was found, {angle}°, with a ratio of links of {ratio}."
     ),
     "dwell": _(
         "Candidate 1 is taken for its smallest deviation during the rest; its smallest "
@@ -57,12 +56,14 @@ def _facts(w: Writer, step: Step) -> None:
         (say(pgettext("synthesize", "error")), errors),
         (say(_("worst")), worst),
         (say(_("defects")), [defects_text(one, say) for one in each]),
-        (say(pgettext("synthesize", "input")),
-         [say(pgettext("synthesize", "turns") if one.turns else _("swings")) for one in each]),
+        (
+            say(pgettext("synthesize", "input")),
+            [say(pgettext("synthesize", "turns") if one.turns else _("swings")) for one in each],
+        ),
         ("μ_min / °", decimals([math.degrees(one.transmission_angle) for one in each], 2)),
         (say(_("l max/min")), decimals([one.link_ratio for one in each], 3)),
         (w.over(say(_("l max"))), w.lengths([one.linkage.longest() for one in each])),
-    ]  # fmt: skip
+    ]
     align = "><>><<>>>"
     if found.task in RANKED and len(each) > 1:
         columns.append((w.say(_("merit")), decimals(merits(each, found.extent), 4)))
@@ -104,18 +105,12 @@ def _reason(w: Writer) -> str:
         )
     if len(found) == 1:
         return w.say(
-            _(
-                "No other different candidate was found; its smallest transmission angle is {angle}°.",
-                angle=angle,
-            )
+            _("No other different candidate was found; its smallest transmission angle is {angle}°.", angle=angle)
         )
     second = found[1]
     if bool(second.defects) != bool(best.defects):
         return w.say(
-            _(
-                "Candidate 1 is taken because candidate 2 has defects: {defects}.",
-                defects=defects_text(second, w.say),
-            )
+            _("Candidate 1 is taken because candidate 2 has defects: {defects}.", defects=defects_text(second, w.say))
         )
     both_exact = error_texts(best)[0] == "0" and error_texts(second)[0] == "0"
     if not both_exact and abs(best.error - second.error) > EQUAL_ERRORS * second.error:

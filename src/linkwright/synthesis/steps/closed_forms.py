@@ -141,9 +141,7 @@ def _from_transmission(w: Writer, d: SliderCrankDerivation, parent: Step, terms:
     )
     if d.offset:
         step.relate(stroke, root((rod + r).squared - e.squared) - root((rod - r).squared - e.squared))
-        step.say(
-            w.say(_("With l = (r + e)/cos μ_min the stroke grows with r; bisection of this equation gives"))
-        )
+        step.say(w.say(_("With l = (r + e)/cos μ_min the stroke grows with r; bisection of this equation gives")))
         step.give(r, w.unit)
     else:
         step.find(r, stroke / TWO, w.unit)
@@ -212,12 +210,7 @@ def quick_return(w: Writer, d: QuickReturnDerivation) -> None:
     theta = extreme_position_angle(w, step, ratio, d.theta)
     step = w.step(_("Link lengths"))
     step.say(
-        w.say(
-            _(
-                "In the limit positions the lever is tangent to the circle of the crank pin; the "
-                "lever swings by θ:"
-            )
-        )
+        w.say(_("In the limit positions the lever is tangent to the circle of the crank pin; the lever swings by θ:"))
     )
     half = sine(theta / TWO)
     crank = step.find(w.length("r", d.crank), frame * half, w.unit)
@@ -247,11 +240,7 @@ def _ram(w: Writer, d: QuickReturnDerivation, step: Step, theta: Term, stroke: T
     step.find(w.length("y", d.height), arm * (ONE + cosine(theta / TWO)) / TWO, w.unit)
     sagitta = arm * (ONE - cosine(theta / TWO))
     height = step.find(w.length("s", sagitta.value / w.scale), sagitta, w.unit)
-    step.say(
-        w.say(
-            _("With the rod l (as demanded, else at least half the arm) the ram's largest pressure angle is")
-        )
-    )
+    step.say(w.say(_("With the rod l (as demanded, else at least half the arm) the ram's largest pressure angle is")))
     rod = step.give(w.length("l", d.rod), w.unit)
     angle = arcsine(height / (TWO * rod))
     step.find(w.angle("α", math.radians(angle.value), "max"), angle, "°")
@@ -265,12 +254,7 @@ def toggle(w: Writer, d: ToggleDerivation) -> None:
     stroke = step.give(w.length("H", d.stroke), w.unit)
     step = w.step(_("Link lengths"))
     step.say(
-        w.say(
-            _(
-                "Virtual work of the force F on the knee and P on the slider: P/F = 1/(2 tan α), so "
-                "at the ratio n"
-            )
-        )
+        w.say(_("Virtual work of the force F on the knee and P on the slider: P/F = 1/(2 tan α), so at the ratio n"))
     )
     alpha = step.find(w.angle("α", d.alpha), arctangent(ONE / (TWO * ratio)), "°")
     step.say(w.say(_("The slider is s = 2 l (1 − cos α) = 4 l sin²(α/2) before the dead point:")))

@@ -21,8 +21,7 @@ def four_bar_lengths(w: Writer, each: Candidate) -> tuple[Term, Term, Term, Term
     points = each.linkage.points
     ends = (("O1", "A"), ("A", "B"), ("O2", "B"), ("O1", "O2"))
     a, b, c, d = (
-        w.length(name, abs(points[last] - points[first]))
-        for name, (first, last) in zip("abcd", ends, strict=True)
+        w.length(name, abs(points[last] - points[first])) for name, (first, last) in zip("abcd", ends, strict=True)
     )
     return a, b, c, d
 
@@ -52,9 +51,7 @@ def examine(w: Writer, each: Candidate) -> None:
 def grashof(w: Writer, step: Step, sides: tuple[Term, ...], each: Candidate) -> None:
     """Sum of the shortest and the longest link against that of the others."""
     low, *middle, high = sorted(sides, key=lambda term: term.amount)
-    step.say(
-        w.say(_("Shortest and longest link, and the other two (a input, b coupler, c output, d frame):"))
-    )
+    step.say(w.say(_("Shortest and longest link, and the other two (a input, b coupler, c output, d frame):")))
     for index, (first, second) in enumerate(((low, high), tuple(middle)), 1):
         total = first + second
         step.find(w.length("S", total.value / w.scale, str(index)), total, w.unit)
@@ -79,9 +76,7 @@ def grashof(w: Writer, step: Step, sides: tuple[Term, ...], each: Candidate) -> 
 def transmission(w: Writer, step: Step, sides: tuple[Term, ...]) -> None:
     """Transmission angles where the input lies along the frame: the smallest is one of them."""
     a, b, c, d = sides
-    step.say(
-        w.say(_("The angle between coupler and output is extreme where the input lies along the frame:"))
-    )
+    step.say(w.say(_("The angle between coupler and output is extreme where the input lies along the frame:")))
     for index, diagonal in (("1", d - a), ("2", d + a)):
         cosine = (b.squared + c.squared - diagonal.squared) / (TWO * b * c)
         step.find(w.angle("μ", math.acos(max(-1.0, min(1.0, cosine.value))), index), arccosine(cosine), "°")
@@ -133,9 +128,7 @@ def branches(w: Writer, step: Step, each: Candidate) -> None:
         w.say(
             _("μ keeps its sign and θ runs one way: all positions lie on one branch, in their order.")
             if not each.defects
-            else _(
-                "The positions do not lie on one branch in their order: see the defects of the candidates."
-            )
+            else _("The positions do not lie on one branch in their order: see the defects of the candidates.")
         )
     )
 
@@ -145,8 +138,5 @@ def coordinates(w: Writer, each: Candidate, names: Iterable[str]) -> list[tuple[
     columns = []
     for name in names:
         places: Complexes = each.positions[name]
-        columns += [
-            (w.over(f"x_{name}"), w.lengths(places.real)),
-            (w.over(f"y_{name}"), w.lengths(places.imag)),
-        ]
+        columns += [(w.over(f"x_{name}"), w.lengths(places.real)), (w.over(f"y_{name}"), w.lengths(places.imag))]
     return columns

@@ -19,15 +19,7 @@ from linkwright.synthesis.function_generation.generate import FunctionDerivation
 from linkwright.synthesis.names import TYPE_NAMES
 from linkwright.synthesis.steps.closed_forms import rounded
 from linkwright.synthesis.steps.four_bars import coordinates, examine, four_bar_lengths
-from linkwright.synthesis.steps.writing import (
-    Writer,
-    decimals,
-    degrees,
-    matrix,
-    numbers,
-    product,
-    small,
-)
+from linkwright.synthesis.steps.writing import Writer, decimals, degrees, matrix, numbers, product, small
 from linkwright.words import _, pgettext
 
 #: Pairs up to which every equation is printed.
@@ -224,11 +216,7 @@ def _zero_angle(w: Writer, d: FunctionDerivation) -> None:
     value = k[0] + k[1] * cosine(zeta) + k[2] * sine(zeta) + k[3] * cosine(twice) + k[4] * sine(twice)
     if all(d.free):
         fixed = w.angle("ζ", d.zeros[0], "φ")
-        step.say(
-            w.say(
-                _("The input's zero angle is free as well and was tried at evenly spaced values; taken was")
-            )
-        )
+        step.say(w.say(_("The input's zero angle is free as well and was tried at evenly spaced values; taken was")))
         step.give(fixed, "°")
     step.give(zeta, "°")
     step.say(w.say(_("Root of the determinant, found from the quartic in e^(iζ); put into D:")))
@@ -296,15 +284,13 @@ def _search(w: Writer, d: FunctionDerivation) -> None:
         "constant": w.length_text(constant) if places else shown(constant, "angle"),
     }
     if scale == 1.0:
-        step.say(
-            w.say(_("The output {symbol} is the output link's coordinate plus {constant}.").format(**values))
-        )
+        step.say(w.say(_("The output {symbol} is the output link's coordinate plus {constant}.").format(**values)))
     else:
         step.say(
             w.say(
-                _(
-                    "The output {symbol} is the output link's coordinate times {scale}, plus {constant}."
-                ).format(scale=f"{scale:.6g}", **values)
+                _("The output {symbol} is the output link's coordinate times {scale}, plus {constant}.").format(
+                    scale=f"{scale:.6g}", **values
+                )
             )
         )
 
@@ -315,9 +301,7 @@ def _errors(w: Writer, d: FunctionDerivation) -> None:
     step = w.step(_("Error at every position"))
     places = w.found.error_name == "length"
     if d.method == "search":
-        step.say(
-            w.say(_("Coordinates of the moving points at every pair, from which the output can be measured:"))
-        )
+        step.say(w.say(_("Coordinates of the moving points at every pair, from which the output can be measured:")))
         moving = [name for name in best.positions if name not in best.linkage.frame]
         columns = [(w.say(_("pair")), numbers(len(d.inputs))), *coordinates(w, best, moving)]
         w.table(step, _("Positions of the moving points"), columns)
@@ -335,9 +319,7 @@ def _errors(w: Writer, d: FunctionDerivation) -> None:
     ]
     w.table(step, _("Deviation at every position"), columns)
     if w.found.error_name != "none":
-        rms, worst = (
-            _shown(w, each, places) for each in (_rms(best.deviations), np.abs(best.deviations).max())
-        )
+        rms, worst = (_shown(w, each, places) for each in (_rms(best.deviations), np.abs(best.deviations).max()))
         step.say(w.say(_("Structural error: root mean square {rms}, maximum {worst}.", rms=rms, worst=worst)))
     w.picture("structural_error")
 

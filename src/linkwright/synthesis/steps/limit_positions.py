@@ -45,9 +45,7 @@ def _circle(w: Writer, d: CrankRockerDerivation, swing: Term, theta: Term) -> No
         )
     )
     half = swing / TWO
-    chord = step.find(
-        w.length("s", 2 * d.rocker_length * math.sin(d.swing_angle / 2)), TWO * c * sine(half), w.unit
-    )
+    chord = step.find(w.length("s", 2 * d.rocker_length * math.sin(d.swing_angle / 2)), TWO * c * sine(half), w.unit)
     if d.centre is None:
         step.say(
             w.say(
@@ -99,10 +97,7 @@ def _pivot(w: Writer, d: CrankRockerDerivation, lengths: tuple[Term, Term]) -> N
         )
     )
     place = d.pivot * d.rocker_length
-    x, y = (
-        step.give(w.length("x", place.real, "O1"), w.unit),
-        step.give(w.length("y", place.imag, "O1"), w.unit),
-    )
+    x, y = (step.give(w.length("x", place.real, "O1"), w.unit), step.give(w.length("y", place.imag, "O1"), w.unit))
     c, half = w.length("c", d.rocker_length), w.angle("ψ", d.swing_angle) / TWO
     step.say(w.say(_("Its distances from B1 and B2 are the sum and the difference of coupler and crank:")))
     up, aside = c * cosine(half), c * sine(half)
@@ -155,12 +150,7 @@ def drag_link(w: Writer, d: DragLinkDerivation) -> None:
     frame = step.give(w.length("d", d.frame), w.unit)
     step = w.step(_("Both ends of the slow half turn"))
     step.say(
-        w.say(
-            _(
-                "While the follower makes its slow half turn between the ends of the stroke, the "
-                "driver turns by"
-            )
-        )
+        w.say(_("While the follower makes its slow half turn between the ends of the stroke, the driver turns by"))
     )
     beta = step.find(w.angle("β", d.slow_turn), TWO * HALF_TURN * ratio / (ONE + ratio), "°")
     step.say(

@@ -72,9 +72,7 @@ def _family(d: MotionDerivation, dyads: int) -> Message:
 
 def _requirements(w: Writer, d: MotionDerivation) -> None:
     step = w.step(pgettext("synthesis_steps", "Given"))
-    step.say(
-        w.say(_("{count} poses: place of the coupler point P, and angle φ of the coupler.", count=len(d.p)))
-    )
+    step.say(w.say(_("{count} poses: place of the coupler point P, and angle φ of the coupler.", count=len(d.p))))
     free = w.say(pgettext("synthesis_steps", "free"))
     angles = [free if math.isnan(each) else degrees([each])[0] for each in d.phi]
     columns = [
@@ -274,10 +272,13 @@ def _line(w: Writer, step: Step, positions: Complexes) -> None:
     chord = positions[np.abs(positions - positions[0]).argmax()] - positions[0]
     unit = chord / abs(chord)
     off = ((positions - positions[0]) * unit.conj()).imag
-    step.say(w.say(_(
-"B slides: its places lie on a straight line at the angle {angle}°, off by at most "
-"{off} {unit}.",
-angle=f"{math.degrees(np.angle(unit)):.4f}",
-off=small([np.abs(off).max() * w.scale], abs(chord) * w.scale)[0],
-unit=w.unit,
-)))  # fmt: skip
+    step.say(
+        w.say(
+            _(
+                "B slides: its places lie on a straight line at the angle {angle}°, off by at most {off} {unit}.",
+                angle=f"{math.degrees(np.angle(unit)):.4f}",
+                off=small([np.abs(off).max() * w.scale], abs(chord) * w.scale)[0],
+                unit=w.unit,
+            )
+        )
+    )

@@ -305,15 +305,9 @@ def free_curve(w: Writer, d: FreeCurveDerivation) -> None:
     points = len(d.curve)
     step.say(
         w.say(
-            _(
-                "A closed curve by {points} corners; its centroid S and root mean square radius R:",
-                points=points,
-            )
+            _("A closed curve by {points} corners; its centroid S and root mean square radius R:", points=points)
             if d.closed
-            else _(
-                "An open curve by {points} corners; its centroid S and root mean square radius R:",
-                points=points,
-            )
+            else _("An open curve by {points} corners; its centroid S and root mean square radius R:", points=points)
         )
     )
     for name, value in (("x_S", d.centroid.real), ("y_S", d.centroid.imag), ("R", d.radius)):
@@ -329,17 +323,19 @@ def free_curve(w: Writer, d: FreeCurveDerivation) -> None:
         )
     )
     step.say(
-        w.say(_(
-"Linkages are random structures, improved by descent and changed again: transmission "
-"angles of at least {angle}°, every joint within {size} R of S; in {seconds} s "
-"{attempts} were tried and {designs} different ones remained.",
-angle=f"{math.degrees(d.transmission_angle):g}",
-size=f"{d.size:g}",
-seconds=f"{d.seconds:g}",
-attempts=d.attempts,
-designs=d.designs,
-))
-    )  # fmt: skip
+        w.say(
+            _(
+                "Linkages are random structures, improved by descent and changed again: transmission "
+                "angles of at least {angle}°, every joint within {size} R of S; in {seconds} s "
+                "{attempts} were tried and {designs} different ones remained.",
+                angle=f"{math.degrees(d.transmission_angle):g}",
+                size=f"{d.size:g}",
+                seconds=f"{d.seconds:g}",
+                attempts=d.attempts,
+                designs=d.designs,
+            )
+        )
+    )
     step.say(
         w.say(
             _(

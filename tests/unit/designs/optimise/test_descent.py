@@ -30,9 +30,13 @@ def test_quadratic_programs_beside_scipy() -> None:
         keep = {"type": "ineq", "fun": lambda z, k=k: rows[k] @ z[:n] + z[n:] - least[k]}
         lack = np.maximum(least[k] - rows[k] @ found[k], 0.0)
         other = minimize(
-            value, np.full(n + m, 0.1), method="SLSQP", constraints=keep, options={"maxiter": 500, "ftol": 1e-12},
+            value,
+            np.full(n + m, 0.1),
+            method="SLSQP",
+            constraints=keep,
+            options={"maxiter": 500, "ftol": 1e-12},
             bounds=[*zip(low[k], high[k], strict=True), *[(0.0, None)] * m],
-        )  # fmt: skip
+        )
         assert value(np.concatenate([found[k], lack])) == pytest.approx(other.fun, abs=1e-7)
         # multipliers: stationary where no bound holds
         inside = (found[k] > low[k] + 1e-4) & (found[k] < high[k] - 1e-4)
@@ -47,9 +51,7 @@ def _valley(x: Floats, _: object) -> Model:
     value = bend**2 + 0.01 * (1.0 - z[:, 0]) ** 2
     slope = np.stack([-4.0 * z[:, 0] * bend - 0.02 * (1.0 - z[:, 0]), 2.0 * bend], axis=1)
     free = (1.0 - (z**2).sum(axis=1))[:, None]
-    return Model(
-        x, value[:, None], free, 4.0 * slope[:, None], -8.0 * z[:, None], np.zeros((len(x), 1, 2, 2))
-    )
+    return Model(x, value[:, None], free, 4.0 * slope[:, None], -8.0 * z[:, None], np.zeros((len(x), 1, 2, 2)))
 
 
 def test_a_curved_valley_and_a_demand_that_holds_at_the_optimum() -> None:
@@ -98,9 +100,11 @@ def test_the_least_largest_of_many_beside_linear_programming() -> None:
     found = descended(largest, draw.random((10, 5)), 60)
     one = -np.ones((15, 1))
     least = linprog(
-        [0, 0, 0, 0, 0, 1], np.block([[rows, one], [-rows, one]]), np.concatenate([wanted, -wanted]),
+        [0, 0, 0, 0, 0, 1],
+        np.block([[rows, one], [-rows, one]]),
+        np.concatenate([wanted, -wanted]),
         bounds=[(0, 1)] * 5 + [(0, None)],
-    ).fun  # fmt: skip
+    ).fun
     reached = np.sort(largest(found, None).goals[:, 0])
     assert reached[:6] == pytest.approx(np.full(6, least), rel=1e-4)
     assert reached[-1] < 1.03 * least  # six functions meet there, of which three stay in a step
@@ -122,9 +126,7 @@ def test_places_without_a_design_of_their_own_are_told() -> None:
     goals = np.array([[0.0, 1.0], [0.1, 0.9], [1.0, 0.0]])
     judged = Judged(np.zeros((3, 1)), goals, np.zeros((3, 1)), {})
     points = np.array([[0.0, 1.0], [0.45, 0.55], [0.12, 0.88], [1.0, 0.0]])
-    assert without_own(judged, points).tolist() == [
-        1
-    ]  # nearest is the second design, which is nearer to another
+    assert without_own(judged, points).tolist() == [1]  # nearest is the second design, which is nearer to another
 
 
 @pytest.mark.parametrize(("goals", "count", "points"), [(1, 16, 1), (2, 48, 48), (3, 48, 45), (4, 48, 35)])

@@ -24,8 +24,10 @@ def test_designs_that_go_one_by_one_are_kept_by_an_interruption_before_the_first
         return measured(self, dimensions)
 
     settings = {
-        "vary": {"count": {"whole": "45..60"}}, "minimize": "count", "keep": {"peak_input_torque": "at most 15 N·m"},
-    }  # fmt: skip
+        "vary": {"count": {"whole": "45..60"}},
+        "minimize": "count",
+        "keep": {"peak_input_torque": "at most 15 N·m"},
+    }
     whole = lw.optimize(lw.loads(GEARS), **settings, evaluations=60)
     monkeypatch.setattr(Measures, "measured", one)
     with pytest.raises(lw.Interrupted) as stopped:
