@@ -23,7 +23,7 @@ from typing import Any
 
 import linkwright as lw
 from linkwright import gallery
-from linkwright.cli.gallery_files import title_and_purpose
+from linkwright.cli.commands.gallery import title_and_purpose
 from linkwright.errors import LinkwrightError
 from linkwright.fields.form import form
 from linkwright.validation.validate import validate

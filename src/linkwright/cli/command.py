@@ -5,24 +5,26 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Sequence
 from functools import wraps
+from io import StringIO
 from itertools import islice, takewhile
+from shutil import get_terminal_size
 from typing import Any
 
 import click
 from click.core import ParameterSource
 from click.shell_completion import CompletionItem
+from rich.console import Console
 
-from linkwright.cli.declared import read_declared
-from linkwright.cli.errors import UsageError
+from linkwright.cli.errors import UsageError, extra_argument, is_model, not_together, usage_error
 from linkwright.cli.files import refuse_output
-from linkwright.cli.help import command_help
-from linkwright.cli.options import COMMON, Option, Options
-from linkwright.cli.session import Session
-from linkwright.cli.usage import extra_argument, is_model, not_together, usage_error
+from linkwright.cli.options import COMMON, Argument, Option, Options, read_declared
+from linkwright.cli.session import Session, grid
 from linkwright.errors import RequestError, about
-from linkwright.words import Message, in_language
+from linkwright.words import Message, _, in_language
 
 Run = Callable[[Options, Session], int]
+#: A title of the help, and its text or its rows.
+Section = tuple[Message, str | list[tuple[str, str]]]
 _is_option = re.compile(r"-(?![\d.]).").match
 
 
@@ -68,9 +70,9 @@ class Command(click.Command):
         return ctx.args
 
     @property
-    def arguments(self) -> list[click.Argument]:
+    def arguments(self) -> list[Argument]:
         """The arguments, without the options."""
-        return [each for each in self.params if isinstance(each, click.Argument)]
+        return [each for each in self.params if isinstance(each, Argument)]
 
     def _separated(self, args: Sequence[str]) -> tuple[list[str], list[str]]:
         """``--vary a b --steps 9 FILE`` as ``--vary=a --vary=b --steps=9`` and ``FILE``.
@@ -124,7 +126,16 @@ class Command(click.Command):
 
     def get_help(self, ctx: click.Context) -> str:
         """The help in the language of the session."""
-        return command_help(ctx, self.description, self.examples)
+        required = [each for each in self.params if isinstance(each, click.Option) and each.required]
+        needed = [f"{each.opts[0]} {_metavar(each)}" for each in required]
+        arguments = [(each.make_metavar(ctx), each.help or "") for each in self.arguments]
+        usage = " ".join([ctx.command_path, *needed, "[options]", *(name for name, _help in arguments)])
+        sections: list[Section] = [
+            (_("arguments"), arguments),
+            (_("options"), option_rows(self.params)),
+            (_("examples"), self.examples),
+        ]
+        return help_page(ctx, usage, self.description, sections)
 
     def get_short_help_str(self, limit: int = 45) -> str:
         """The summary."""
@@ -160,3 +171,41 @@ def command(
         return made
 
     return decorate
+
+
+EXIT_CODES = _(
+    "0    done, nothing to complain about\n"
+    "1    an error in the model, or a position that cannot be reached\n"
+    "2    the command itself is wrong: an unknown option, name or file\n"
+    "130  interrupted"
+)
+
+
+def help_page(ctx: click.Context, usage: str, description: str, sections: Sequence[Section]) -> str:
+    """Usage, description and sections with their titles, in the language of the session, as wide as the terminal."""
+    language = ctx.obj.language
+    parts = [in_language(_("usage: "), language) + in_language(usage, language), in_language(description, language)]
+    for title, body in [*sections, (_("exit codes"), EXIT_CODES)]:
+        if isinstance(body, str):
+            lines = in_language(body, language).split("\n")
+        else:
+            console = Console(file=StringIO(), width=get_terminal_size().columns - 2, color_system=None, emoji=False)
+            with console.capture() as found:
+                console.print(grid([[name, in_language(text, language)] for name, text in body], "<<"))
+            lines = found.get().splitlines()
+        if body:
+            parts.append("\n".join([f"{title.translate(language)}:", *(f"  {line}".rstrip() for line in lines)]))
+    return "\n\n".join(parts)
+
+
+def option_rows(params: Iterable[click.Parameter]) -> list[tuple[str, str]]:
+    """Names and help of the options among parameters."""
+    options = [each for each in params if isinstance(each, click.Option)]
+    return [
+        (f"{', '.join([*each.opts, *each.secondary_opts])} {_metavar(each)}".rstrip(), each.help or "")
+        for each in options
+    ]
+
+
+def _metavar(each: click.Option) -> str:
+    return f"{each.metavar or ''}{' …' if each.multiple else ''}"

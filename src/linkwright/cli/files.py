@@ -1,4 +1,7 @@
-"""Files that commands write, completely or not at all, never over another one unless asked: results, diagrams."""
+"""Files of commands: the model that one reads, and results and diagrams that one writes.
+
+A file is written completely or not at all, never over another one unless asked.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from linkwright import filesystem
 from linkwright.cli.errors import UsageError
+from linkwright.errors import Finding, ModelError
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -16,8 +20,23 @@ if TYPE_CHECKING:
     from linkwright.core.attached import PlotMixin
     from linkwright.core.table import Tabular
     from linkwright.designs.optimise.optimum import Optimum
+    from linkwright.mechanism.mechanism import Mechanism
 
 ENDING_SAYS = _('"{path}": the ending says what is written; end the name in {endings}', code="cli.bad_suffix")
+
+
+def read_model(source: str, session: Session) -> tuple[Mechanism, list[Finding]]:
+    """The mechanism of a path or ``gallery:NAME``, and findings that do not hinder; raises ModelError.
+
+    One that gives its name in several languages has that of the reader, except in data.
+    """
+    from linkwright.files.model_file import read_text
+    from linkwright.files.source import read_source
+
+    mechanism, findings = read_text(*read_source(source))
+    if mechanism is None:
+        raise ModelError(findings)
+    return mechanism if session.json else mechanism.translate(session.language), findings
 
 
 def refuse_existing(path: Path, *, force: bool) -> None:

@@ -1,8 +1,8 @@
-"""Declarations of options and arguments, for Click: decorators with messages as help and fields as types."""
+"""Declarations of options and arguments for Click, and the reading of their values by fields."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any, TypeVar
@@ -10,10 +10,14 @@ from typing import Any, TypeVar
 import click
 from click.shell_completion import CompletionItem
 
-from linkwright.cli.errors import UsageError
-from linkwright.cli.usage import did_you_mean
+from linkwright.cli.errors import OptionError, UsageError, did_you_mean
 from linkwright.fields.base import Field
-from linkwright.fields.tables import PAIRS, ByAddress, Integer, Listed, Table
+from linkwright.fields.nodes import Entry, Node, Scalar
+from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.fields.nodes import Sequence as SequenceNode
+from linkwright.fields.reading import Place
+from linkwright.fields.tables import PAIRS, ByAddress, Either, Integer, Listed, Table
+from linkwright.files.reader import Reader
 from linkwright.words import LANGUAGES, _
 
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
@@ -259,3 +263,44 @@ COMMON = (
         help=_("show this help"),
     ),
 )
+
+
+def read_declared(values: dict[str, Any], options: Iterable[Option]) -> None:
+    """Puts values in the place of the texts of declared options; raises OptionError with all findings."""
+    reader, fields, entries = Reader(""), dict[str, Field](), list[Entry]()
+    for each in sorted(options, key=lambda option: option.rank):
+        if each.field is not None:
+            key, name = each.opts[0], str(each.name)
+            fields[name] = replace(each.field, key=key)
+            entries.append(Entry(_scalar(key), _node(reader, key, each.field, values[name])))
+    found = reader.table(MappingNode(0, 0, 0, 0, entries), Place("", ""), fields)
+    if reader.error_count:
+        raise OptionError(reader.findings)
+    values.update(found or {})
+
+
+def _node(reader: Reader, key: str, field: Field, words: str | list[str]) -> Node:
+    """The node of an option's words; of KEY=VALUE, separated by commas in one word, where the field takes a table."""
+    table = isinstance(field, Table | ByAddress) or (isinstance(field, Either) and "=" in words)
+    if isinstance(field, Listed):
+        return SequenceNode(0, 0, 0, 0, [_scalar(text) for text in words])
+    if not table:
+        return _scalar(str(words))
+    entries: dict[str, Entry] = {}
+    for text in words.split(",") if isinstance(words, str) else words:
+        name, sign, value = (each.strip() for each in text.partition("="))
+        if not (sign and name and value) and text.strip():
+            message = _('"{text}" is no setting', text=text)
+            reader.error(
+                None, key, message, _("write NAME=VALUE, such as crank.length=80..120mm or flywheel=2"), "syntax"
+            )
+        elif name in entries:
+            message = _("{name} is given twice", name=name)
+            reader.error(None, key, message, _("write it once"), "duplicate-key")
+        elif name:
+            entries[name] = Entry(_scalar(name), _scalar(value))
+    return MappingNode(0, 0, 0, 0, [*entries.values()])
+
+
+def _scalar(text: str) -> Scalar:
+    return Scalar(0, 0, 0, 0, text.strip())

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from linkwright.cli.command import Command, command
 from linkwright.cli.errors import UsageError
+from linkwright.cli.files import read_model, write_diagram, write_result
 from linkwright.cli.options import PICTURES, RESULTS, Options, argument, flag, fonts, force, option, output, together
 from linkwright.cli.session import Session
 from linkwright.fields.tables import Integer
@@ -33,14 +34,6 @@ part_options = together(
 )
 
 
-def run_part(options: Options, session: Session, command: str) -> int:
-    """Reads a file of a kind that the command takes, solves it, and shows or writes what came out."""
-    from linkwright.parts.file import solve
-
-    show(solve(read(options.file, command, session), options.file), options, session)
-    return 0
-
-
 def read(source: str, command: str, session: Session) -> Problem:
     """The problem of a file; UsageError where its kind belongs to another command."""
     from linkwright.files.calculations import COMMANDS
@@ -65,12 +58,16 @@ def read(source: str, command: str, session: Session) -> Problem:
 
 def show(result: Result, options: Options, session: Session, *, kind: str | None = None) -> None:
     """Prints the result; writes its curves and its diagram (``kind``: another than its usual one) where asked."""
-    from linkwright.cli.files import write_diagram, write_result
-
     write_result(result, options, session)
     write_diagram(result, options, session, kind=kind)
     text = result.worked(session.language) if options.worked else ""
     session.show_result(result, options.output, options.plot, text=text, digits=options.digits)
+
+
+def _equilibrium(options: Options, session: Session) -> Result:
+    from linkwright.parts.statics.structure import equilibrium
+
+    return equilibrium(read_model(options.file, session)[0])
 
 
 def part_command(name: str, summary: Message, description: Message, examples: str) -> Command:
@@ -79,7 +76,13 @@ def part_command(name: str, summary: Message, description: Message, examples: st
     @command(summary, description, examples, name=name)
     @part_options
     def run(options: Options, session: Session) -> int:
-        return run_part(options, session, name)
+        from linkwright.parts.file import kind_of, solve
+
+        if name == "statics" and kind_of(options.file) is None:  # links and joints
+            show(_equilibrium(options, session), options, session)
+        else:
+            show(solve(read(options.file, name, session), options.file), options, session)
+        return 0
 
     return run
 
@@ -129,6 +132,21 @@ capability against limits."""
 linkwright statistics gallery:shaft_diameters
 linkwright statistics gallery:spring_rate --plot rate.svg
 linkwright statistics gallery:shaft_diameters --worked --lang zh""",
+    ),
+    "statics": part_command(
+        "statics",
+        _("resultants, reactions of bodies and structures, belts, wedges, balancing of rotors"),
+        _(
+            """\
+Adds up systems of forces (resultant, moment, wrench, equilibrant), finds the
+reactions of rigid bodies and of pinned structures, the tensions of belts, the
+pushes on wedges and the counterweights of rotors. A structure is a model file
+of links and joints without a drive."""
+        ),
+        """\
+linkwright statics gallery:force_system
+linkwright statics gallery:two_bars_equilibrium --worked
+linkwright statics bracket.yaml --plot bracket.svg""",
     ),
     "trajectory": part_command(
         "trajectory",

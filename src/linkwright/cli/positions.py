@@ -5,8 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from linkwright.cli.errors import UsageError
-from linkwright.cli.usage import did_you_mean
+from linkwright.cli.errors import UsageError, did_you_mean
 from linkwright.core.expressions import amount
 from linkwright.errors import LinkwrightError, RequestError, about
 from linkwright.events.position_list import known_outputs, of_text, values_of

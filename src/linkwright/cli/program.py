@@ -7,18 +7,18 @@ import io
 import os
 import sys
 from collections.abc import Sequence
+from importlib.util import find_spec
 from typing import Any
 
 import click
 from click.shell_completion import CompletionItem, shell_complete
 
 from linkwright.cli import commands
-from linkwright.cli.command import Command, in_language_of
-from linkwright.cli.errors import OutputError, UsageError
-from linkwright.cli.help import program_help, version
+from linkwright.cli.command import Command, Section, help_page, in_language_of, option_rows
+from linkwright.cli.errors import OutputError, UsageError, did_you_mean, usage_error
 from linkwright.cli.options import COMMON, Option
 from linkwright.cli.session import Session
-from linkwright.cli.usage import did_you_mean, usage_error
+from linkwright.core import VERSION
 from linkwright.errors import NO_FILE, LinkwrightError, ModelError, RequestError, speaker
 from linkwright.words import LANGUAGES, _
 
@@ -76,16 +76,53 @@ class Program(click.Group):
 
     def get_help(self, ctx: click.Context) -> str:
         """The list of commands in the language of the session."""
-        return program_help(self, ctx)
+        found = ((name, self.get_command(ctx, name)) for name in self.list_commands(ctx))
+        sections: list[Section] = [
+            (_("commands"), [(name, each.get_short_help_str()) for name, each in found if each is not None]),
+            (_("options"), option_rows(self.params)),
+        ]
+        page = help_page(
+            ctx, _("linkwright COMMAND [options]"), _("Linkwright: analysis and design of planar machines."), sections
+        )
+        return f"{page}\n\n{ctx.obj.say(_('linkwright COMMAND --help explains a command, with examples.'))}"
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
         """Commands and options that complete a word, with their help in the language of the session."""
         return in_language_of(ctx, super().shell_complete(ctx, incomplete))
 
 
+def _print_versions(session: Session) -> None:
+    """Prints the versions, and whether compiled evaluation is available."""
+    found = {package: _version_of(package) for package in ("numpy", "llvmlite")}
+    python = ".".join(map(str, sys.version_info[:3]))
+    if session.json:
+        session.show_data({"linkwright": VERSION, "python": python, **found})
+        return
+    numpy, compiled = found["numpy"] or _("not installed"), found["llvmlite"]
+    first = _("linkwright {version}\nPython {python}, numpy {numpy}", version=VERSION, python=python, numpy=numpy)
+    second = (
+        _("llvmlite {version}: sweeps of many designs run compiled", version=compiled)
+        if compiled
+        else _(
+            "llvmlite is not installed: sweeps of many designs are slower, searches for paths and "
+            "living pages do not run (pip install llvmlite)"
+        )
+    )
+    session.show(session.say(first), session.say(second))
+
+
+def _version_of(package: str) -> str | None:
+    from importlib import metadata  # 10 ms
+
+    try:
+        return metadata.version(package) if find_spec(package) else None
+    except metadata.PackageNotFoundError:
+        return None
+
+
 def _show_version(ctx: click.Context, param: click.Parameter, value: bool) -> None:
     if value and not ctx.resilient_parsing:
-        version(ctx.obj)
+        _print_versions(ctx.obj)
         ctx.exit()
 
 
@@ -96,15 +133,21 @@ def _welcome(**_values: Any) -> int:
     return FINE
 
 
-VERSION = Option(
-    ["--version", "-V"],
-    is_flag=True,
-    expose_value=False,
-    callback=_show_version,
-    help=_("print the versions of what is at work"),
-)
 PROGRAM = Program(
-    "linkwright", params=[*COMMON, VERSION], callback=_welcome, invoke_without_command=True, add_help_option=False
+    "linkwright",
+    params=[
+        *COMMON,
+        Option(
+            ["--version", "-V"],
+            is_flag=True,
+            expose_value=False,
+            callback=_show_version,
+            help=_("print the versions of what is at work"),
+        ),
+    ],
+    callback=_welcome,
+    invoke_without_command=True,
+    add_help_option=False,
 )
 #: What is read of the words before all else, as mistakes in the others are reported in the language.
 SETTINGS = click.Command(

@@ -84,8 +84,12 @@ class Session:
             self.show_tables(found, **options)
         self.show_written(*written, spaced=spaced)
 
-    def show_written(self, *paths: object, spaced: bool = False) -> None:
-        """Names the files that were written, but for those that are None; ``spaced``: each behind an empty line."""
+    def show_written(self, *paths: object, spaced: bool = False, data: object = None) -> None:
+        """Names the files that were written, but for those that are None; ``spaced``: each behind an empty line;
+        ``data``: what stands in their place with ``json``."""
+        if self.json and data is not None:
+            self.show_data(data)
+            return
         for path in paths:
             if path is not None:
                 self.show("\n" * spaced + self.say(_("written: {path}", path=path)))

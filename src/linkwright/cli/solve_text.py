@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
+import numpy as np
 from rich.text import Text
 
-from linkwright.cli import solve_remarks
 from linkwright.cli.options import Options
 from linkwright.cli.session import Session, bold, styled_lines
-from linkwright.cli.solving import Solved, leading, point_keys
-from linkwright.core.table import Column
+from linkwright.cli.solving import Solved, closeness, extremes_of, input_text, largest_reactions, leading, point_keys
+from linkwright.core.arrays import largest
+from linkwright.core.table import Column, Table
+from linkwright.kinetostatics.forces import Forces
+from linkwright.mechanism.force_names import reaction_pairs, rubbing_guides
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.topology import Structure
 from linkwright.topology.analysis import turned_against
@@ -35,10 +39,10 @@ def report(solved: Solved, options: Options, session: Session) -> list[str | Tex
     lines += turned_against(solved.motion.structure, say)
     for paragraph in (
         *_table(solved, options, session),
-        solve_remarks.extremes(solved, say, degrees=degrees),
-        solve_remarks.checks(solved, say),
-        styled_lines(solve_remarks.closeness(solved.motion, session.language)),
-        solve_remarks.failures(solved, say, session.language, degrees=degrees),
+        _extremes(solved, say, degrees=degrees),
+        _checks(solved, say),
+        styled_lines(closeness(solved.motion, session.language)),
+        _failures(solved, say, session.language, degrees=degrees),
         [say(_("Note: {text}", text=in_language(note, session.language))) for note in solved.notes],
         [say(_("Note: {text}", text=solved.proof.explain(session.language)))] if options.prove else [],
         [session.finding(finding) for finding in solved.warnings],
@@ -264,3 +268,118 @@ def _ruled(text: str, span: int) -> str:
     """A name with lines to both sides, over the columns that it heads."""
     space = span - cells(text)
     return "─" * (space // 2) + text + "─" * (space - space // 2)
+
+
+def _extremes(solved: Solved, say: Translate, *, degrees: bool) -> list[str]:
+    """The largest force in every joint and the range of every driver's effort.
+
+    Over the whole cycle these are found between the positions, as the design numbers are; of chosen positions, or of
+    a cycle that is not passed, they are those of the positions, and the title says so.
+    """
+    forces = solved.forces
+    if forces is None or not solved.motion.ok.any():
+        return []
+    several = solved.motion.steps > 1
+    title = (
+        _("Largest joint forces over the cycle (between the positions, too)")
+        if solved.between
+        else _("Largest joint forces, over {count} positions", count=int(solved.motion.ok.sum()))
+        if several
+        else pgettext("solve", "Joint forces")
+    )
+    pairs = reaction_pairs(forces.mechanism)
+    peaks = largest_reactions(solved, degrees=degrees)
+    heads = (_("joint"), pgettext("solve", "on"), _("force N"), "Fx N", "Fy N", pgettext("solve", "at input"))
+    rows: list[tuple[str, ...]] = [heads]
+    for (joint, link), peak in zip(pairs, peaks, strict=True):
+        force = peak.forces.reaction(joint, on=link)[peak.row]
+        number = Column("", "", "N", np.array([peak.value]), solved.force_scale).text
+        rows.append((joint, link, number(peak.value), number(force[0]), number(force[1]), peak.input))
+    wide = 6 if several else 5
+    rubbing = ", ".join(rubbing_guides(forces.mechanism))
+    guides = _(
+        "The force in a guide is what presses its parts together; its friction, μ times "
+        "that, along the guide, comes on top: {names}",
+        names=rubbing,
+    )
+    notes = [*([guides] if rubbing else []), *_efforts(solved, forces, say, degrees=degrees)]
+    return Table((), [row[:wide] for row in rows], "<<>>>>", title, notes).lines(language_of(say))
+
+
+def _efforts(solved: Solved, forces: Forces, say: Translate, *, degrees: bool) -> list[str]:
+    """Largest, smallest and mean effort of every driver; the mean over a closed cycle counts its end once."""
+    rows = []
+    for key, driver in forces.mechanism.drivers.items():
+        values = forces.driver_effort(key)
+        name = key if len(forces.mechanism.drivers) > 1 else say(_("driver"))
+        if not np.isfinite(values).any():
+            continue
+        unit = "N·m" if forces.mechanism.joints[driver.joint].coordinate == "turn" else "N"
+        number = Column("", "", unit, values, solved.force_scale).text
+        if len(values) == 1:
+            rows.append(say(_("{name}: {value} {unit}", name=name, value=number(values[0]), unit=unit)))
+            continue
+        effort = partial(Forces.driver_effort, name=key)
+        high, low = extremes_of(solved, [(effort, "max"), (effort, "min")], degrees)
+        at = _("at {place}")
+        sentence = say(
+            _(
+                "{name}: from {low} {unit} {low_at} to {high} {unit} {high_at}",
+                name=name,
+                high=number(high.value),
+                low=number(low.value),
+                unit=unit,
+                high_at=at.format(place=high.input),
+                low_at=at.format(place=low.input),
+            )
+        )
+        if solved.between and solved.motion.positions.closed:
+            sentence += say(_(", mean {mean} {unit}", mean=number(solved.analysis.mean_of(effort)), unit=unit))
+        rows.append(sentence)
+    return rows
+
+
+def _checks(solved: Solved, say: Translate) -> list[str]:
+    """The residuals that belong to the forces."""
+    forces = solved.forces
+    if forces is None or not solved.motion.ok.any():
+        return []
+    power = largest(forces.power_residual)
+    lines = []
+    if forces.mechanism.drivers:
+        lines.append(
+            say(
+                _(
+                    "Check: driver power from joint forces and from all powers differ by {residual} W at "
+                    "most (of {size} W)",
+                    residual=f"{power:.1e}",
+                    size=f"{largest(forces.power):.3g}",
+                )
+            )
+        )
+    size = solved.force_scale
+    lines.append(
+        say(
+            _(
+                "Check: forces on every link balance within {residual} N (of {size} N)",
+                residual=f"{largest(forces.balance_residual):.1e}",
+                size=f"{size:.3g}",
+            )
+        )
+    )
+    return lines
+
+
+def _failures(solved: Solved, say: Translate, language: str, *, degrees: bool) -> list[str]:
+    """Stretches of positions that are not reached, each with the sentence of its first position."""
+    ok = solved.motion.ok
+    failed = np.flatnonzero(~ok)
+    if not len(failed):
+        return []
+    lines = [say(_("Not reached: {count} of {of} positions", count=len(failed), of=len(ok)))]
+    outcomes = solved.motion.outcomes
+    for run in np.split(failed, np.flatnonzero(np.diff(failed) > 1) + 1):
+        first, last = (input_text(solved.motion, int(place), degrees=degrees) for place in (run[0], run[-1]))
+        where = first if first == last else f"{first} … {last}"
+        lines.append(f"  {where}: {outcomes[int(run[0])].say(language)}")
+    return lines

@@ -1,22 +1,24 @@
-"""One run of ``solve``: the motion on a fine grid, its forces, and the rows that are shown of it."""
+"""One run of ``solve``: the motion on a fine grid, its forces, the rows that are shown, and all as data."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import contextlib
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import chain
 from math import ceil
 from typing import Literal
 
 import numpy as np
 
-from linkwright.analysis.analysis import Analysis
+from linkwright.analysis.analysis import Analysis, Kind
 from linkwright.cli.errors import UsageError
 from linkwright.cli.options import Options
 from linkwright.cli.positions import inputs, joined, places
 from linkwright.core.arrays import Floats, Indices, largest
 from linkwright.core.outputs import Output
+from linkwright.core.search import first_largest
 from linkwright.core.table import Column
 from linkwright.errors import Finding, LinkwrightError, RequestError, about
 from linkwright.events.position_list import MOST
@@ -33,6 +35,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _
 
 Failures = Literal["raise", "mark"]
+Wanted = tuple[Callable[[Forces], Floats], Kind]
 #: Steps of the grid on which largest values are sought, at least.
 FINE = 360
 #: Steps that are shown unless others are asked for.
@@ -203,3 +206,113 @@ def chosen(solved: Solved, options: Options) -> list[Column]:
     first = {column.name: column for column in [columns["time"], *leading(solved, columns)]}
     picked = (Column.of(*item) for item in solved.picked(patterns).items())
     return list({**first, **{column.name: column for column in picked}}.values())
+
+
+@dataclass(frozen=True)
+class Place:
+    """A number of a result where it is largest or smallest: ``value``, the input there as text, the forces there and
+    the number of their position."""
+
+    value: float
+    input: str
+    forces: Forces
+    row: int
+
+
+def data(solved: Solved, options: Options) -> dict[str, object]:
+    """Everything that the table and what stands beneath it say."""
+    motion, forces = solved.motion, solved.forces
+    failed = [int(row) for row in solved.rows if not motion.ok[row]]
+    found: dict[str, object] = {
+        "ok": motion.complete and solved.trouble is None,
+        "name": motion.mechanism.name,
+        "mobility": motion.structure.mobility,
+        "turned": motion.structure.data()["turned"],
+        "positions": len(solved.rows),
+        "columns": named_columns(solved, options),
+        "reached": motion.ok[solved.rows],
+        "not_reached": {str(list(solved.rows).index(row)): motion.outcomes[row].sentence for row in failed},
+        "notes": list(solved.notes),
+        "warnings": [each.removeprefix("! ") for each in closeness(motion, "en")],
+        "findings": [finding.data() for finding in solved.warnings],
+    }
+    if options.prove:
+        proof = solved.proof
+        found["proof"] = {"said": proof.explain(), "proved": proof.proved, "margin": proof.margin}
+    if forces is not None:
+        found["static"] = forces.static
+        found["checks"] = {
+            "power_residual [W]": largest(forces.power_residual),
+            "balance_residual [N]": largest(forces.balance_residual),
+        }
+        peaks = largest_reactions(solved) if motion.ok.any() else []
+        found["largest_reactions [N]"] = {
+            f"{joint} on {link}": peak.value
+            for (joint, link), peak in zip(reaction_pairs(forces.mechanism), peaks, strict=bool(peaks))
+        }
+    if solved.trouble is not None:
+        found["error"] = str(solved.trouble)
+    return found
+
+
+def largest_reactions(solved: Solved, *, degrees: bool = True) -> list[Place]:
+    """The largest force of every joint on a link, in the order of ``reaction_pairs``."""
+    pairs = reaction_pairs(solved.motion.mechanism)
+    return extremes_of(solved, [(partial(_size, joint=joint, on=link), "max") for joint, link in pairs], degrees)
+
+
+def _size(forces: Forces, joint: str, on: str) -> Floats:
+    """Size of a joint's force on a link, (n,) N."""
+    return np.asarray(np.hypot(*forces.reaction(joint, on=on).T))
+
+
+def extremes_of(solved: Solved, wanted: Sequence[Wanted], degrees: bool) -> list[Place]:
+    """Extremes of what the forces give: refined between the positions of a whole cycle, else those of positions."""
+    forces = solved.forces
+    assert forces is not None
+    if not solved.between:
+        rows = [first_largest(signal(forces) if kind == "max" else -signal(forces)) for signal, kind in wanted]
+        values = [float(signal(forces)[row]) for (signal, _unused), row in zip(wanted, rows, strict=True)]
+    else:
+        found = [(signal, solved.analysis.extreme(signal, kind, of="forces")) for signal, kind in wanted]
+        known = [(signal, each.time, each.value) for signal, each in found if each is not None]
+        forces, rows = solved.analysis.resolver.forces_at(known)
+        values = [value for _unused, _unused2, value in known]
+    return [
+        Place(value, input_text(forces.motion, row, degrees=degrees), forces, row)
+        for value, row in zip(values, rows, strict=True)
+    ]
+
+
+def closeness(motion: Motion, language: str) -> list[str]:
+    """Warnings about groups whose cycle passes close to a singular position, each with the place.
+
+    Of chosen inputs or times the whole cycle is looked at where there is one.
+    """
+    if not motion.inputs or not motion.ok.any():
+        return []
+    from linkwright.analysis.singularity import Singularity
+
+    cycle = motion
+    if not motion.positions.closed:
+        with contextlib.suppress(LinkwrightError):
+            cycle = solve_motion(motion.mechanism, failures="mark")
+    values = Singularity().evaluate(cycle)
+    return [f"! {remark.text(language)}" for value in values for remark in value.warnings]
+
+
+def input_text(motion: Motion, place: int, *, degrees: bool) -> str:
+    """Where a position is: the drivers' coordinates, or the time where drivers follow laws of their own."""
+    if not motion.mechanism.steady:
+        return f"t = {_short(motion.time[place])} s"
+    texts = []
+    for name, values in motion.inputs.items():
+        turn = motion.positions.rotary[name]
+        in_degrees = turn and degrees
+        unit = "°" if in_degrees else " rad" if turn else " m"
+        texts.append(f"{_short(np.degrees(values[place]) if in_degrees else values[place])}{unit}")
+    return ", ".join(texts)
+
+
+def _short(value: float) -> str:
+    return f"{round(float(value), 4) + 0.0:g}"

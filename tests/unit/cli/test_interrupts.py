@@ -31,14 +31,14 @@ def interrupt(*_: object, **__: object) -> None:
 def test_an_interrupt_that_hits_a_finalizer_is_not_lost() -> None:
     program = """
 import signal, sys, time
-from linkwright.cli import process
+from linkwright import cli
 
 class Left:
     def __del__(self):
         signal.raise_signal(signal.SIGINT)
 
 signal.signal(signal.SIGINT, signal.default_int_handler)
-sys.unraisablehook = process._interrupt_again
+sys.unraisablehook = cli._interrupt_again
 left = Left()
 try:
     del left
@@ -51,7 +51,7 @@ except KeyboardInterrupt:
 
 
 def test_an_interrupted_command_says_so(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    monkeypatch.setattr("linkwright.cli.source.read_text", interrupt)
+    monkeypatch.setattr("linkwright.files.model_file.read_text", interrupt)
     assert main(["solve", "gallery:kite"]) == 130
     assert capsys.readouterr().err == INTERRUPTED
 
@@ -64,7 +64,7 @@ def test_an_interrupt_while_a_class_is_made_says_so(
     def interrupted(*_: object, **__: object) -> None:
         raise RuntimeError("Error calling __set_name__") from KeyboardInterrupt()
 
-    monkeypatch.setattr("linkwright.cli.source.read_text", interrupted)
+    monkeypatch.setattr("linkwright.files.model_file.read_text", interrupted)
     assert main(["solve", "gallery:kite"]) == 130
     assert capsys.readouterr().err == INTERRUPTED
 
@@ -73,13 +73,13 @@ def test_an_interrupted_process_does_not_wait_for_its_threads() -> None:
     program = """
 import sys, threading
 from linkwright.cli import main
-from linkwright.cli import source
+from linkwright.files import model_file
 
 def interrupted(*_):
     print("begun")
     raise KeyboardInterrupt
 
-source.read_text = interrupted
+model_file.read_text = interrupted
 threading.Thread(target=threading.Event().wait).start()
 sys.argv = ["linkwright", "solve", "gallery:kite"]
 raise SystemExit(main())

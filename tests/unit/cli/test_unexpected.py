@@ -11,7 +11,7 @@ def test_an_unexpected_error_is_one_sentence_and_a_traceback_only_on_request(
     def broken(source: str) -> None:
         raise ZeroDivisionError("of what")
 
-    monkeypatch.setattr("linkwright.cli.source.read_source", broken)
+    monkeypatch.setattr("linkwright.files.source.read_source", broken)
     assert main(["structure", "gallery:kite"]) == 1
     plain = capsys.readouterr().err
     assert "ZeroDivisionError: of what" in plain and plain.count("\n") == 1

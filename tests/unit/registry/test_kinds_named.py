@@ -52,7 +52,7 @@ LEFT: Mapping[str, tuple[int, str]] = {
     "file_check.py": (1, "judges closeness to singular positions by the metric's rule"),
     "machine/running.py": (1, "says how near its motion comes to a singular position"),
     "course/variants.py": (1, "which transmission angles are good: the metric's limit"),
-    "cli/solve_remarks.py": (1, "says how near a solution is to a singular position"),
+    "cli/solving.py": (1, "says how near a solution is to a singular position"),
     "exporters/modelica/laws.py": (3, "the texts of laws, by type"),
     "mechanism/cam_shape.py": (1, "the profile of a cam joint"),
     "mechanism/wheel_sizes.py": (5, "the sizes of wheels, by type"),

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from linkwright.cli.command import Command
 
 #: Commands that solve the file of a machine part and do nothing else.
-PARTS = ("beam", "program", "statistics", "trajectory", "vibration")
+PARTS = ("beam", "program", "statics", "statistics", "trajectory", "vibration")
 
 
 def names() -> tuple[str, ...]:

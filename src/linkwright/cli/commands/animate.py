@@ -12,7 +12,6 @@ from linkwright.cli.pictures import (
     paths,
     picture_file,
     refuse_unknown_points,
-    report_written,
     vectors,
 )
 from linkwright.cli.positions import duration
@@ -53,8 +52,8 @@ linkwright animate crusher.yaml --forces --curves driver.effort --seconds 4 --ou
 @picture_file((".svg", ".gif", ".mp4"), _("write FILE.svg, FILE.gif or FILE.mp4"))
 def run(options: Options, session: Session) -> int:
     """Writes the moving picture; 1 where positions of the cycle were left out."""
+    from linkwright.cli.files import read_model
     from linkwright.cli.progress import progress
-    from linkwright.cli.source import read_model
     from linkwright.plotting.animation import animate
 
     seconds = duration(options.seconds, "--seconds")
@@ -74,5 +73,5 @@ def run(options: Options, session: Session) -> int:
     )
     with progress(session, _("drawing")) as report:
         path = animation.save(options.output, width=options.width or WIDTH, progress=report, force=True)
-    report_written(path, options, session)
+    session.show_written(path, data={"ok": True, "written": str(path)})
     return int(not motion.complete)

@@ -5,10 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from linkwright.cli.command import command
-from linkwright.cli.errors import UsageError
+from linkwright.cli.errors import UsageError, did_you_mean
 from linkwright.cli.options import MODELS, Options, count, force, model, option, output
 from linkwright.cli.session import Session
-from linkwright.cli.usage import did_you_mean
 from linkwright.core.arguments import STEPS
 from linkwright.fields.base import Number, Quantity
 from linkwright.fields.tables import ByAddress, Either
@@ -55,8 +54,7 @@ linkwright balance linkage.yaml --radius 80mm --output balanced.yaml""",
 @force
 def run(options: Options, session: Session) -> int:
     """Prints the counterweights and their effect, and writes the balanced model."""
-    from linkwright.cli.files import atomic_write
-    from linkwright.cli.source import read_model
+    from linkwright.cli.files import atomic_write, read_model
     from linkwright.machine.balancing import balance
 
     mechanism, _findings = read_model(options.file, session)

@@ -75,9 +75,8 @@ linkwright compare a.yaml b.yaml --of jaw ram          the output of each"""
 @force
 def run(options: Options, session: Session) -> int:
     """Compares the machines and prints or writes what came out."""
-    from linkwright.cli.files import present, write_table
+    from linkwright.cli.files import present, read_model, write_table
     from linkwright.cli.progress import progress
-    from linkwright.cli.source import read_model
     from linkwright.designs.compare import compare
     from linkwright.designs.overlay import overlay_columns, overlay_data
 

@@ -39,8 +39,7 @@ linkwright compensate press.yaml lead --span "567 deg" --output press_with_cam.y
 def run(options: Options, session: Session) -> int:
     """Finds the cam, shows what it does, and writes the model with it, or the table of its lift."""
     from linkwright.cams.compensating_cam import compensating_cam
-    from linkwright.cli.files import atomic_write
-    from linkwright.cli.source import read_model
+    from linkwright.cli.files import atomic_write, read_model
     from linkwright.core.expressions import amount
     from linkwright.core.table import csv_text
     from linkwright.files.write import dump

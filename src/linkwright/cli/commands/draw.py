@@ -61,7 +61,7 @@ linkwright draw gallery:excavator --time "2 s" --lang zh --output excavator.svg"
 @pictures.picture_file((".svg", ".png", ".pdf"), _("write FILE.svg, FILE.png or FILE.pdf"))
 def run(options: Options, session: Session) -> int:
     """Draws a model and writes the picture."""
-    from linkwright.cli.source import read_model
+    from linkwright.cli.files import read_model
     from linkwright.plotting.drawing.draw import draw
 
     mechanism, _findings = read_model(options.file, session)
@@ -82,5 +82,6 @@ def run(options: Options, session: Session) -> int:
     )
     for note in drawing.notes:
         session.tell(note)
-    pictures.report_written(drawing.save(options.output, width=options.width, force=True), options, session)
+    path = drawing.save(options.output, width=options.width, force=True)
+    session.show_written(path, data={"ok": True, "written": str(path)})
     return 0

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from linkwright.cli.command import command
+from linkwright.cli.errors import UsageError
 from linkwright.cli.options import Options, count, flag, fonts, force, model, option, positions, switch
 from linkwright.cli.session import Session
 from linkwright.core.arguments import STEPS
+from linkwright.errors import LinkwrightError
 from linkwright.fields.base import Number
 from linkwright.fields.tables import Integer
 from linkwright.words import _
@@ -29,22 +32,8 @@ NAMES = (
 )
 #: Options of formats; one that a format lacks is refused with those that it has.
 OPTIONS = (
-    "degrees",
-    "unit",
-    "position",
-    "paths",
-    "curve",
-    "dimensions",
-    "labels",
-    "accelerations",
-    "form",
-    "name",
-    "timestep",
-    "indent",
-    "compression",
-    "width",
-    "size",
-    "beside",
+    *("degrees", "unit", "position", "paths", "curve", "dimensions", "labels", "accelerations", "form"),
+    *("name", "timestep", "indent", "compression", "width", "size", "compared"),
 )
 
 
@@ -104,37 +93,41 @@ linkwright export conveyor.yaml --to solution.py              Python program"""
 @option("--compression", "NAME", help=_("compression in Parquet"))
 @count("--width", help=_("width of PNG, pixels"))
 @option("--size", "N", of=Number(), help=_("size of SVG, pixels"))
-@option("--beside", "FILE", help=_("html: further models on the same page, for comparison"), several=True)
+@option("--beside", "FILE", "compared", help=_("html: further models on the same page, for comparison"), several=True)
 @fonts
 @force
 def run(options: Options, session: Session) -> int:
     """Solves a model and writes the file; 1 where a position is not reached."""
-    from linkwright.cli.exporting import checked, page_inputs, report_failures
-    from linkwright.cli.files import refuse_existing
-    from linkwright.cli.solving import chosen_motion, with_forces
-    from linkwright.cli.source import read_model
-    from linkwright.exporters.export import export
+    from linkwright.cli.files import read_model, refuse_existing
+    from linkwright.cli.solving import chosen_motion, input_text, with_forces
+    from linkwright.exporters.export import FORMATS, check_options, chosen_format, export
+    from linkwright.files.model_file import read_document
+    from linkwright.files.source import read_source
 
     path = Path(options.output)
-    chosen, settings = checked(path, options, OPTIONS)
+    settings: dict[str, Any] = {
+        name: getattr(options, name) for name in OPTIONS if getattr(options, name) is not None
+    }
+    try:
+        chosen = chosen_format(path, options.format)
+        check_options(chosen, FORMATS[chosen], settings)
+    except LinkwrightError as error:
+        raise UsageError(error.sentence) from None
     refuse_existing(path, force=options.force)
     mechanism, _findings = read_model(options.file, session)
     motion = chosen_motion(mechanism, options, "mark")
     if chosen == "html":
-        settings |= page_inputs(options.file, options.beside or ())
+        settings["text"] = read_source(options.file)[0]
+        settings["compared"] = [read_document(each) for each in options.compared or ()]
     if chosen == "python":
         settings["model"] = str(options.file)
-    export(
-        mechanism if motion is None else with_forces(motion),
-        path,
-        format=chosen,
-        force=options.force,
-        steps=options.steps,
-        language=session.language,
-        **settings,
-    )
-    if session.json:
-        session.show_data({"ok": True, "path": str(path), "format": chosen})
-    else:
-        session.show_written(path)
-    return 0 if motion is None else report_failures(motion, session)
+    solved = mechanism if motion is None else with_forces(motion)
+    common = {"force": options.force, "steps": options.steps, "language": session.language}
+    export(solved, path, format=chosen, **common, **settings)
+    session.show_written(path, data={"ok": True, "path": str(path), "format": chosen})
+    if motion is None:
+        return 0
+    for number, outcome in enumerate(motion.outcomes):
+        if not outcome.ok:
+            session.tell(f"{input_text(motion, number, degrees=True)}: {outcome.say(session.language)}")
+    return int(not motion.complete)

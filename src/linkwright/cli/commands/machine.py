@@ -3,13 +3,46 @@
 from __future__ import annotations
 
 from linkwright.cli.command import command
-from linkwright.cli.machine_options import CURVE_OPTIONS, refuse_contradictions
+from linkwright.cli.errors import UsageError
 from linkwright.cli.options import RESULTS, Options, argument, count, fields, force, output
 from linkwright.cli.session import Session
 from linkwright.core.arguments import STEPS
 from linkwright.fields.base import file_keys
 from linkwright.machine.drive_options import DriveOptions
 from linkwright.words import _
+
+CURVE_OPTIONS = ("scale", "load", "period", "speed", "inertia", "mass", "gyration")
+NOTHING_GIVEN = _(
+    "name a model file, or give a torque diagram with --areas or --torque; see linkwright machine --help",
+    code="machine.nothing_given",
+)
+OUTPUT_NEEDS_FILE = _("--output writes the cycle of a mechanism; name a model file", code="machine.output_needs_file")
+NOT_WITH_FILE = _(
+    "{option} describes a torque diagram; it cannot be used together with a model file", code="machine.not_with_file"
+)
+NO_SCALE = _('--areas needs the scales of the diagram: --scale "5 N·m/mm, 1 deg/mm"', code="machine.no_scale")
+MASS_AND_GYRATION = _(
+    "--mass and --gyration belong together; give both, or --inertia", code="machine.mass_and_gyration"
+)
+
+
+def refuse_contradictions(options: Options) -> None:
+    """Raises UsageError for options that belong together, or exclude each other or a model file."""
+    diagram = next((f"--{each}" for each in ("areas", "torque") if getattr(options, each) is not None), None)
+    if options.file is None:
+        if diagram is None:
+            raise UsageError(NOTHING_GIVEN)
+        if options.output is not None:
+            raise UsageError(OUTPUT_NEEDS_FILE)
+    else:
+        of_curves = [f"--{name}" for name in CURVE_OPTIONS if getattr(options, name) is not None]
+        if diagram or of_curves:
+            raise UsageError(NOT_WITH_FILE.format(option=diagram or of_curves[0]))
+    if options.areas is not None and options.areas[1] is None:
+        raise UsageError(NO_SCALE)
+    if (options.mass is None) != (options.gyration is None):
+        raise UsageError(MASS_AND_GYRATION)
+
 
 FIELDS = file_keys(DriveOptions)
 #: Options that say the same, or of which one says nothing of the other's diagram.
@@ -59,8 +92,7 @@ linkwright machine --torque "5000 + 600*sin(2*theta)" --load "5000 + 500*sin(the
 @force
 def run(options: Options, session: Session) -> int:
     """Lays out motor and flywheel and prints them."""
-    from linkwright.cli.files import present
-    from linkwright.cli.source import read_model
+    from linkwright.cli.files import present, read_model
     from linkwright.machine.drive_design import of_diagram, of_mechanism
 
     refuse_contradictions(options)

@@ -47,8 +47,7 @@ def run(options: Options, session: Session) -> int:
     """Prints or writes the numbers; 1 where the joint forces failed that some of them need, 2 where some of those
     that are named do not apply."""
     from linkwright.analysis.of_model import applicable_metrics
-    from linkwright.cli.files import write_result
-    from linkwright.cli.source import read_model
+    from linkwright.cli.files import read_model, write_result
 
     names = metric_names(options.names)
     mechanism, _findings = read_model(options.file, session)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from linkwright.cli.command import command
-from linkwright.cli.diagrams import cycles, diagram_position, refuse_diagram
 from linkwright.cli.files import atomic_write, default_path, refuse_output
 from linkwright.cli.options import PICTURES, Options, argument, count, flag, fonts, force, option
+from linkwright.cli.pictures import cycles, diagram_position, refuse_diagram
 from linkwright.cli.session import Session
 from linkwright.core.arguments import CURVE_STEPS
 from linkwright.fields.base import Number
@@ -99,8 +99,5 @@ def run(options: Options, session: Session) -> int:
         **settings,
     )
     atomic_write(path, diagram.content(path.suffix.lower(), dpi=options.dpi), force=options.force)
-    if session.json:
-        session.show_data({"ok": True, "kind": options.kind, "file": str(path)})
-    else:
-        session.show_written(path)
+    session.show_written(path, data={"ok": True, "kind": options.kind, "file": str(path)})
     return int(not all(motion.complete for motion in motions.values()))

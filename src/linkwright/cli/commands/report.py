@@ -13,30 +13,9 @@ from linkwright.words import _
 FORMS = ("pdf", "html", "docx")
 #: Names of the sections in their usual order.
 SECTIONS = (
-    "task",
-    "drawing",
-    "structure",
-    "flow",
-    "method",
-    "worked",
-    "tables",
-    "curves",
-    "reactions",
-    "balance",
-    "free_bodies",
-    "gears",
-    "cams",
-    "torque",
-    "limits",
-    "flywheel",
-    "synthesis",
-    "errata",
-    "calls",
-    "program",
-    "comparison",
-    "conclusion",
-    "appendix",
-    "references",
+    *("task", "drawing", "structure", "flow", "method", "worked", "tables", "curves", "reactions", "balance"),
+    *("free_bodies", "gears", "cams", "torque", "limits", "flywheel", "synthesis", "errata", "calls", "program"),
+    *("comparison", "conclusion", "appendix", "references"),
 )
 
 
@@ -91,9 +70,9 @@ linkwright report crusher.yaml --sections task structure worked tables"""
 @force
 def run(options: Options, session: Session) -> int:
     """Writes the report; sections that have nothing to show are named on the console."""
+    from linkwright.cli.files import read_model
     from linkwright.cli.positions import joined
     from linkwright.cli.progress import progress
-    from linkwright.cli.source import read_model
     from linkwright.parts.file import kind_of
     from linkwright.reports.report import report
     from linkwright.synthesis.task_file import task_file
@@ -114,12 +93,7 @@ def run(options: Options, session: Session) -> int:
         )
         content = found.content(path.suffix.lower())
     atomic_write(path, content, force=options.force)
-    if session.json:
-        session.show_data({"ok": not found.broken, "file": str(path), "missing": list(found.missing)})
-        return int(found.broken)
-    if found.missing:
-        session.tell(session.say(_("Not in the report:")))
-    for sentence in found.missing:
-        session.tell(f"  {sentence}")
-    session.show_written(path)
+    if found.missing and not session.json:
+        session.tell("\n  ".join([session.say(_("Not in the report:")), *found.missing]))
+    session.show_written(path, data={"ok": not found.broken, "file": str(path), "missing": list(found.missing)})
     return int(found.broken)

@@ -45,19 +45,8 @@ def run(options: Options, session: Session) -> int:
     settings = {name: getattr(options, name) for name in ("kind", "of", "size")}
     found = sheet(options.file, language=session.language, **settings)
     found.save(path, force=options.force, fonts=options.fonts)
-    if session.json:
-        session.show_data(
-            {
-                "ok": True,
-                "file": str(path),
-                "size": found.paper.size,
-                "scale": found.scale,
-                "panels": [*found.panels],
-                "notes": [*found.notes],
-            }
-        )
-        return 0
-    for note in found.notes:
+    data = {"ok": True, "file": str(path), "size": found.paper.size, "scale": found.scale}
+    for note in () if session.json else found.notes:
         session.tell(note)
-    session.show_written(path)
+    session.show_written(path, data={**data, "panels": [*found.panels], "notes": [*found.notes]})
     return 0

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from linkwright.cli.command import command
-from linkwright.cli.errors import UsageError
+from linkwright.cli.errors import NOT_TOGETHER, UsageError
 from linkwright.cli.options import TABLES, Options, count, flag, force, model, option, output, positions, switch
 from linkwright.cli.session import Session
-from linkwright.cli.usage import NOT_TOGETHER
 from linkwright.words import _
 
 
@@ -56,11 +55,9 @@ linkwright solve gallery:excavator --times "0..8 s:0.5" --json"""
 @force
 def run(options: Options, session: Session) -> int:
     """Solves a model and prints or writes the results; 1 where a position or the forces failed."""
-    from linkwright.cli.files import write_table
-    from linkwright.cli.solve_remarks import data
+    from linkwright.cli.files import read_model, write_table
     from linkwright.cli.solve_text import report, worked_pages
-    from linkwright.cli.solving import named_columns, solve
-    from linkwright.cli.source import read_model
+    from linkwright.cli.solving import data, named_columns, solve
 
     if options.static and options.forces is False:
         raise UsageError(NOT_TOGETHER.format(name="--static", other="--no-forces"))

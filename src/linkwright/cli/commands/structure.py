@@ -30,7 +30,7 @@ linkwright structure crusher.yaml --json"""
 @flag("--forces", help=_("print the program with the joint forces (implies --program)"))
 def run(options: Options, session: Session) -> int:
     """Prints the structure analysis; with ``--program`` the straight-line program as well."""
-    from linkwright.cli.source import read_model
+    from linkwright.cli.files import read_model
     from linkwright.kinematics.rank_of_motion import rank_sentence
     from linkwright.kinematics.structure_with_rank import analysed
     from linkwright.kinetostatics.program_of_results import program_of_results

@@ -68,9 +68,8 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
 @force
 def run(options: Options, session: Session) -> int:
     """Studies the designs and prints or writes what came out."""
-    from linkwright.cli.files import present
+    from linkwright.cli.files import present, read_model
     from linkwright.cli.progress import resumable
-    from linkwright.cli.source import read_model
     from linkwright.designs.cluster import on_cluster
     from linkwright.designs.study import study
     from linkwright.files.write import dump

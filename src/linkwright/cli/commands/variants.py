@@ -56,8 +56,8 @@ linkwright variants crusher.yaml --count 30 --to sheets key moodle --output exer
 @force
 def run(options: Options, session: Session) -> int:
     """Finds the variants and writes their files."""
+    from linkwright.cli.files import read_model
     from linkwright.cli.progress import progress
-    from linkwright.cli.source import read_model
     from linkwright.course.questions import FORMS
     from linkwright.course.variants import variants
 
