@@ -29,7 +29,7 @@ ATTACHED.update(
         "Motion.outcomes": "linkwright.kinematics.reach_messages:explain",
         "Motion.refusal": "linkwright.kinematics.refusal:refusal",
         "Motion.to_dataframe": "linkwright.kinematics.table:motion_frame",
-        "Optimum.tables": "linkwright.designs.optimise.report:tables",
+        "Optimum.tables": "linkwright.designs.optimise.optimum:tables",
         "PlotMixin.plot": "linkwright.plotting.diagrams.diagram_by_name:plot",
         "Problem.sketch": "linkwright.plotting.sketches.base:sketch",
         "Rack.draw": "linkwright.plotting.true_shapes:draw_rack",

@@ -218,7 +218,7 @@ def test_curves_among_machines_are_those_of_the_closed_form() -> None:
         assert spread.mean == pytest.approx(machines.mean(axis=0), abs=1e-12)
         assert spread.deviation == pytest.approx(machines.std(axis=0, ddof=1), rel=1e-9, abs=1e-12)
         assert spread.minimum == pytest.approx(machines.min(axis=0), abs=1e-12)
-        assert spread.largest == pytest.approx(machines.max(axis=0), abs=1e-12)
+        assert spread.maximum == pytest.approx(machines.max(axis=0), abs=1e-12)
         sigma, moving = spread.deviation / 128, spread.deviation > 1e-12
         for edge, share in ((spread.low, 0.00135), (spread.high, 0.99865)):
             assert ((machines < edge - sigma).mean(axis=0)[moving] <= share + 1e-12).all()

@@ -22,7 +22,7 @@ from linkwright.core.progress import Progress, current_progress
 from linkwright.core.quantity import number
 from linkwright.course.mistakes import Consequence, Sheet
 from linkwright.course.task import Question, Task, task
-from linkwright.designs.sampling import BAD_SEED
+from linkwright.designs.ranges import BAD_SEED
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.files.model_file import load
 from linkwright.kinematics.solve import solve_motion

@@ -8,16 +8,18 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
 
+import numpy as np
+
 from linkwright.analysis.base import MetricValue
 from linkwright.analysis.by_name import ask
 from linkwright.core.arguments import STEPS, real, require
+from linkwright.core.arrays import Floats
 from linkwright.core.attached import PlotMixin, attached
 from linkwright.core.progress import current_progress
 from linkwright.core.read_only import Frozen
 from linkwright.core.table import Table, Tabular, unused
 from linkwright.designs.alternatives import Alternative, alternatives
 from linkwright.designs.criteria import USUAL, Criterion, criteria
-from linkwright.designs.overlay import Overlay, overlays
 from linkwright.errors import LinkwrightError, RequestError, with_remedy
 from linkwright.kinematics.outcome import PositionError
 from linkwright.machine.flywheel import FLUCTUATION
@@ -99,7 +101,7 @@ class Comparison(PlotMixin, Tabular, Frozen):
     @property
     def notes(self) -> tuple[str, ...]:
         """What could not be found, and why."""
-        from linkwright.designs.comparability import unlike
+        from linkwright.designs.alternatives import unlike
 
         own = (note for each in self.alternatives for note in each.notes)
         return (*unlike(self.alternatives), *dict.fromkeys(own))
@@ -312,3 +314,72 @@ def _weights(weights: Mapping[str, float], asked: Sequence[Criterion]) -> Mappin
     if judged and all(weights.get(name, 1.0) == 0.0 for name in judged):
         raise RequestError(_("all weights are zero; give one metric a weight above zero", code="study.all_zero"))
     return weights
+
+
+@dataclass(frozen=True)
+class Overlay:
+    """One quantity of all alternatives: ``name`` (a key of the labels of curves), its dimension; per label
+    the input passed since the cycle's begin (n,) (rad or m, in its direction of motion) and the values (n,), SI.
+
+    A hodograph has the two components of a force instead.
+    """
+
+    name: str
+    dimension: str
+    lines: Mapping[str, tuple[Floats, Floats]]
+
+
+def overlays(alternatives: Sequence[Alternative]) -> tuple[Overlay, ...]:
+    """Output, its rates, pivot reaction with its hodograph, input torque."""
+    found = [_motion(alternatives, name, place) for place, name in enumerate(("travel", "velocity", "acceleration"))]
+    if any(each.loaded for each in alternatives):
+        sizes = {a.label: (_passed(a), np.hypot(*a.pivot_force.T)) for a in alternatives}
+        hodograph = {a.label: (a.pivot_force[:, 0], a.pivot_force[:, 1]) for a in alternatives}
+        torque = {a.label: (_passed(a), a.forces.input_torque) for a in alternatives}
+        found += [
+            Overlay("pivot_reaction", "force", sizes),
+            Overlay("hodograph", "force", hodograph),
+            Overlay("input_torque", "torque", torque),
+        ]
+    return tuple(found)
+
+
+def _motion(alternatives: Sequence[Alternative], name: str, place: int) -> Overlay:
+    turning = all(each.output.kind == "angle" for each in alternatives)
+    kinds = (
+        ("angle", "angular_velocity", "angular_acceleration") if turning else ("length", "velocity", "acceleration")
+    )
+    return Overlay(name, kinds[place], {a.label: (_passed(a), a.travel()[place]) for a in alternatives})
+
+
+def _passed(alternative: Alternative) -> Floats:
+    """How far the input has gone since the cycle began."""
+    q = alternative.motion.input
+    return np.asarray(np.abs(q - q[0]))
+
+
+def overlay_columns(overlays: Iterable[Overlay]) -> dict[str, Floats]:
+    """Curves as columns by name with unit, SI."""
+    columns: dict[str, Floats] = {}
+    for overlay in overlays:
+        unit = si_unit(overlay.dimension)
+        for label, (x, y) in overlay.lines.items():
+            if overlay.name == "hodograph":
+                columns[f"{label}: pivot_reaction.x [{unit}]"] = x
+                columns[f"{label}: pivot_reaction.y [{unit}]"] = y
+                continue
+            columns.setdefault(f"{label}: input", x)
+            columns[f"{label}: {overlay.name} [{unit}]"] = y
+    return columns
+
+
+def overlay_data(overlays: Iterable[Overlay]) -> list[dict[str, Any]]:
+    """Curves as plain data."""
+    return [
+        {
+            "name": overlay.name,
+            "unit": si_unit(overlay.dimension),
+            "lines": {label: {"x": x.tolist(), "y": y.tolist()} for label, (x, y) in overlay.lines.items()},
+        }
+        for overlay in overlays
+    ]

@@ -16,8 +16,15 @@ from linkwright.core.arguments import STEPS, one_of, require
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
 from linkwright.designs.design_numbers import side_by_side
-from linkwright.designs.objective_terms import PathError, Terms, differentiable, number_of_points, weighted
-from linkwright.designs.over_positions import NO_GRADIENTS, Builder
+from linkwright.designs.objective_terms import (
+    NO_GRADIENTS,
+    Builder,
+    PathError,
+    Terms,
+    differentiable,
+    number_of_points,
+    weighted,
+)
 from linkwright.designs.varied_dimensions import checked_addresses, refuse_moved_positions
 from linkwright.errors import RequestError
 from linkwright.formula.machine_code import available

@@ -14,8 +14,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
 from linkwright.cycle.load_limits import LoadLimits
 from linkwright.cycle.near_limits import NearLimits
-from linkwright.designs.loaded_cycle import LoadedCycle, loaded_cycle
-from linkwright.designs.traced_outputs import Traced
+from linkwright.designs.traced_outputs import LoadedCycle, Traced, loaded_cycle
 from linkwright.designs.varied_dimensions import checked_addresses
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.formula.llvm_backend import compile_program

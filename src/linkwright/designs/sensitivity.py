@@ -15,11 +15,10 @@ from linkwright.core.attached import PlotMixin
 from linkwright.core.read_only import Frozen, locked
 from linkwright.core.table import Amount, Cell, Table, Tabular, unused
 from linkwright.cycle.summary import Summary
-from linkwright.designs.known_loads import FRICTION_SLOPE, known_loads
+from linkwright.designs.design_numbers import OF_VALUES
 from linkwright.designs.objective import over_metrics
 from linkwright.designs.objective_terms import differentiable
-from linkwright.designs.one_by_one import OF_VALUES
-from linkwright.designs.slopes import Slopes
+from linkwright.designs.slopes import FRICTION_SLOPE, Slopes, known_loads
 from linkwright.designs.traced_outputs import Traced
 from linkwright.designs.varied_dimensions import checked_addresses, refuse_misfits
 from linkwright.errors import LinkwrightError, RequestError

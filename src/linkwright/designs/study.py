@@ -28,8 +28,7 @@ from linkwright.designs.criteria import Criterion, criteria
 from linkwright.designs.design_numbers import numbers_of
 from linkwright.designs.designs import sweep
 from linkwright.designs.failures import Failure
-from linkwright.designs.ranges import Range
-from linkwright.designs.sampling import grid, sobol
+from linkwright.designs.ranges import Range, grid, sobol
 from linkwright.designs.varied_dimensions import varied_ranges
 from linkwright.errors import LinkwrightError, RequestError, with_remedy
 from linkwright.files.write import dump

@@ -12,11 +12,10 @@ from linkwright.core.arrays import Flags, Floats, Indices, Integers
 from linkwright.core.progress import Progress, current_progress, paced
 from linkwright.cycle.load_limits import FoundLimits
 from linkwright.cycle.summary import Summary, finished, reductions
-from linkwright.designs.change_points import ChangePoints, near_enough
 from linkwright.designs.checkpoints import checkpointed, identity
-from linkwright.designs.loaded_cycle import LoadedCycle, loaded_cycle
-from linkwright.designs.one_by_one import changes_of, motion_alone, outputs_alone, places_in, summary_of
-from linkwright.designs.traced_outputs import NEAREST, VALID, Traced
+from linkwright.designs.design_numbers import changes_of, motion_alone, outputs_alone, places_in, summary_of
+from linkwright.designs.failures import ChangePoints, near_enough
+from linkwright.designs.traced_outputs import NEAREST, VALID, LoadedCycle, Traced, loaded_cycle
 from linkwright.errors import LinkwrightError, SelfCheckError
 from linkwright.events.following import ITERATIONS
 from linkwright.events.tracked_states import TrackedStates, tracked_states

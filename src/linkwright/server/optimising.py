@@ -11,9 +11,8 @@ from linkwright.analysis.outputs import mechanism_outputs
 from linkwright.core.json_data import Plain
 from linkwright.designs.criteria import criterion
 from linkwright.designs.optimise.optimize import optimize
-from linkwright.designs.optimise.optimum import OptimizeError, Optimum
+from linkwright.designs.optimise.optimum import OptimizeError, Optimum, comparison
 from linkwright.designs.optimise.problem import problem
-from linkwright.designs.optimise.report import comparison
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.files.document import Document
 from linkwright.files.model_file import read_text

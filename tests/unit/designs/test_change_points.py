@@ -7,7 +7,7 @@ import pytest
 from tests.invariants.just_turning import FOURBAR, SLIDE
 
 import linkwright as lw
-from linkwright.designs.change_points import ChangePoints, near_enough
+from linkwright.designs.failures import ChangePoints, near_enough
 from linkwright.designs.traced_outputs import Traced
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.passing_proof import NEAR
@@ -35,7 +35,7 @@ def test_blocks_of_designs_and_compiled_ones_are_numbered_through(monkeypatch: p
     text = FOURBAR.replace("SPEED", "3").replace("START", "5")
     frames = [4.0, 5.0, 4.0, 4.0, 4.5, 5.0, 4.0]
     assert found(text, "frame.Q.x", frames, 36, "llvm") == [1, 5]
-    monkeypatch.setattr("linkwright.designs.change_points.BLOCK", 3)
+    monkeypatch.setattr("linkwright.designs.failures.BLOCK", 3)
     assert found(text, "frame.Q.x", frames, 36) == [1, 5]
     assert found(text, "frame.Q.x", [], 36) == []
 

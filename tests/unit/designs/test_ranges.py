@@ -9,8 +9,7 @@ from tests.every import every
 from tests.refusals import refused
 
 from linkwright.designs.criteria import criterion
-from linkwright.designs.ranges import Range, parse_range
-from linkwright.designs.sampling import grid
+from linkwright.designs.ranges import Range, grid, parse_range
 
 
 def test_a_range_is_what_it_says() -> None:

@@ -48,7 +48,7 @@ LEFT: Mapping[str, tuple[int, str]] = {
     "worked_solutions/wheels.py": (1, "the same, from the joint's hook to them"),
     "server/drawn_contacts.py": (2, "tools of the studio that write a cam, a rack into a file"),
     "server/edits.py": (3, "tools of the studio that write a guide, a slot, a gear, a force into a file"),
-    "designs/tolerance/pin_turning_law.py": (1, "a law of its own, by a table, for pins that follow their reactions"),
+    "designs/tolerance/pins.py": (1, "a law of its own, by a table, for pins that follow their reactions"),
     "file_check.py": (1, "judges closeness to singular positions by the metric's rule"),
     "machine/running.py": (1, "says how near its motion comes to a singular position"),
     "course/variants.py": (1, "which transmission angles are good: the metric's limit"),

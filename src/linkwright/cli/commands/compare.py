@@ -77,8 +77,7 @@ def run(options: Options, session: Session) -> int:
     """Compares the machines and prints or writes what came out."""
     from linkwright.cli.files import present, read_model, write_table
     from linkwright.cli.progress import progress
-    from linkwright.designs.compare import compare
-    from linkwright.designs.overlay import overlay_columns, overlay_data
+    from linkwright.designs.compare import compare, overlay_columns, overlay_data
 
     if len(options.files) < 2:
         raise UsageError(TOO_FEW)

@@ -16,6 +16,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.progress import Progress, current_progress, reporting
 from linkwright.designs.checkpoints import checkpointing, current_checkpoints
 from linkwright.designs.optimise.evolution import (
+    Scale,
     State,
     begin,
     dominates,
@@ -23,13 +24,16 @@ from linkwright.designs.optimise.evolution import (
     generation,
     idle,
     joined,
+    nearest,
+    picked,
     ranked,
     resumed,
+    spread,
     taken,
+    without_own,
 )
-from linkwright.designs.optimise.front import Scale, nearest, picked, spread, without_own
+from linkwright.designs.optimise.local_search import Polish
 from linkwright.designs.optimise.optimum import Choice, OptimizeError, Optimum, hypervolume
-from linkwright.designs.optimise.polish import Polish
 from linkwright.designs.optimise.problem import problem
 from linkwright.designs.optimise.task import CHECKED, Judged, Task
 from linkwright.errors import LinkwrightError, ModelError, RequestError
@@ -466,7 +470,7 @@ class _Run:
 
     def _failing(self, found: Optimum) -> Message:
         """Which demands the nearest design misses, and by how much."""
-        from linkwright.designs.optimise.report import missing
+        from linkwright.designs.optimise.optimum import missing
 
         best, asked = found.best, found.problem
         if best.made is not None and not best.missed:

@@ -9,10 +9,9 @@ import numpy as np
 from linkwright.analysis.base import METRICS, MetricValue
 from linkwright.analysis.table import MetricsTable
 from linkwright.core.arrays import Floats
-from linkwright.designs.compare import Comparison
+from linkwright.designs.compare import Comparison, Overlay
 from linkwright.designs.criteria import criterion
 from linkwright.designs.designs import Sweep
-from linkwright.designs.overlay import Overlay
 from linkwright.designs.study import Study
 from linkwright.errors import RequestError
 from linkwright.pictures.diagram import COLOURS, FAINT, Axes, Figure, new_figure

@@ -10,8 +10,7 @@ import numpy as np
 from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import unit_of_kind
-from linkwright.designs.optimise.optimum import Optimum
-from linkwright.designs.optimise.report import label
+from linkwright.designs.optimise.optimum import Optimum, label
 from linkwright.designs.ranges import dimension_of
 from linkwright.designs.sensitivity import Sensitivity
 from linkwright.errors import RequestError

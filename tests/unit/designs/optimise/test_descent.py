@@ -7,9 +7,8 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import linprog, minimize
 
-from linkwright.designs.optimise.descent import Model, descended
-from linkwright.designs.optimise.front import Scale, nearest, picked, spread, without_own
-from linkwright.designs.optimise.quadratic import quadratic
+from linkwright.designs.optimise.evolution import Scale, nearest, picked, spread, without_own
+from linkwright.designs.optimise.local_search import Model, descended, quadratic
 from linkwright.designs.optimise.task import Judged
 
 Floats = NDArray[np.float64]

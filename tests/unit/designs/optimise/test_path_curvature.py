@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.designs.optimise.path_curvature import path_curvature
+from linkwright.designs.optimise.paths import path_curvature
 
 
 @pytest.mark.parametrize("name", ["crank_rocker", "slider_crank_offset", "jaw_crusher_sixbar"])

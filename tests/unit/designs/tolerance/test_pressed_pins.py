@@ -7,7 +7,7 @@ import linkwright as lw
 from linkwright import parts
 from linkwright.designs.designs import sweep_curves
 from linkwright.designs.tolerance import Clearance, Tolerance, ToleranceStudy
-from linkwright.designs.tolerance.pressed_pins import exact, is_position
+from linkwright.designs.tolerance.pins import exact, is_position
 
 FOURBAR = {"crank.length": 1.0, "coupler.length": 3.5, "rocker.length": 2.5, "frame.O2.x": 4.0}
 SLIDER = """

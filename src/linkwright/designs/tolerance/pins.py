@@ -1,4 +1,9 @@
-"""Pins that follow their own reactions through the full cycle: rates and forces with clearances.
+"""Pins with clearances that follow the joint's own reaction: at positions, and through the full cycle.
+
+The joint's force on the link with the hole, F, is that of the pin against the hole: the pin's centre lies at
+r = c F/|F| from the hole's centre. To first order in c an output y(φ) changes by
+Σ c (∂y/∂x_h F_x + ∂y/∂y_h F_y)/|F|, with exact derivatives at fixed input and the forces of the nominal mechanism;
+:func:`exact` solves every position with the moved pin and its own force instead.
 
 Every pressed pin becomes a link without mass, as long as the clearance, from the hole's centre to the pin's; a driver
 of its own turns it against the link with the hole. A link without mass that only two pins touch carries its force
@@ -9,25 +14,115 @@ angle that is left between offset and reaction is the residual.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, is_dataclass, replace
+from typing import TYPE_CHECKING, ClassVar, Self
 
 import numpy as np
 
 from linkwright.applied_loads.base import Load
 from linkwright.core.arrays import Flags, Floats
+from linkwright.core.outputs import PLACES
 from linkwright.designs.designs import sweep_curves
-from linkwright.designs.tolerance.pin_turning_law import TurnedByReaction
 from linkwright.designs.tolerance.problem import Clearance, Tolerances
-from linkwright.drivers.base import Driver
+from linkwright.drivers.base import Driver, Law
+from linkwright.drivers.table import TableLaw
 from linkwright.errors import LinkwrightError
+from linkwright.fields.base import TimeTableValues
 from linkwright.joints.base import implied_joint
+from linkwright.kinematics.names import output_meant
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.link import Link
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _
+
+if TYPE_CHECKING:
+    from scipy.interpolate import PPoly
+
+    from linkwright.drivers.base import Array
+    from linkwright.fields.base import Field
+
+
+#: Rounds in which the force follows the moved pin.
+EXACT_ROUNDS = 3
+#: A force below this share of the largest over the cycle has no direction.
+FAINT = 1e-9
+
+
+def directions(study: Tolerances, forces: Forces) -> dict[str, Floats]:
+    """Where each pressed pin lies, as unit vectors (n, 2) in the axes of the hole's link; zero without a force."""
+    found = {}
+    for pin in study.holes("pressed"):
+        on = study.clearances[pin].on
+        force = forces.reaction(pin, on=on, axes="frame" if on == "frame" else on)
+        size = np.hypot(*force.T)
+        strong = size > FAINT * max(float(size.max()), 1e-300)
+        found[pin] = np.where(strong[:, None], force / np.where(strong, size, 1.0)[:, None], 0.0)
+    return found
+
+
+def require_forces(study: Tolerances) -> Forces:
+    """The nominal forces; LinkwrightError where a pressed pin carries none."""
+    forces = solve_forces(study.prepared, steps=study.steps)
+    for pin, way in directions(study, forces).items():
+        if not way.any():
+            raise LinkwrightError(
+                _(
+                    "the pin {pin} carries no force, so nothing presses it; give masses, gravity or loads",
+                    code="tolerance.no_force",
+                    pin=pin,
+                )
+            )
+    return forces
+
+
+def shifts(study: Tolerances, slopes: Callable[[str], Floats], forces: Forces) -> Floats:
+    """Change (n,) of one output by all pressed pins to first order; ``slopes`` gives its derivatives (n,)."""
+    total = np.zeros(forces.steps)
+    for pin, way in directions(study, forces).items():
+        along, across = study.holes("pressed")[pin]
+        size = study.clearances[pin].clearance
+        total += size * (slopes(along) * way[:, 0] + slopes(across) * way[:, 1])
+    return total
+
+
+def exact(study: Tolerances, output: str) -> Floats:
+    """An angle, coordinate or displacement (n,) with all pressed pins moved, each position solved for itself."""
+    from linkwright.designs.prepared import prepare
+
+    holes = study.holes("pressed")
+    addresses = [address for pair in holes.values() for address in pair]
+    solver = prepare(study.prepared, vary=addresses, steps=study.steps)
+    nominal = study.prepared.dimensions()
+    forces = solver.solve({})
+    ways = directions(study, forces)
+    meant = output_meant(study.mechanism, output)
+    found = np.empty(study.steps if forces.motion.positions.closed else forces.steps)
+    for i in range(len(found)):
+        here = {pin: way[i] for pin, way in ways.items()}
+        for _unused in range(EXACT_ROUNDS):
+            solved = solver.solve(_moved(study, holes, nominal, here))
+            here = {pin: way[i] for pin, way in directions(study, solved).items()}
+        found[i] = solved.motion.read(meant)[i]
+    return found
+
+
+def _moved(
+    study: Tolerances, holes: Mapping[str, tuple[str, str]], nominal: Mapping[str, float], ways: Mapping[str, Floats]
+) -> dict[str, float]:
+    changes = {}
+    for pin, pair in holes.items():
+        for address, part in zip(pair, ways[pin], strict=True):
+            changes[address] = nominal[address] + study.clearances[pin].clearance * float(part)
+    return changes
+
+
+def is_position(study: Tolerances, output: str) -> bool:
+    """Whether an output is an angle, a coordinate or a displacement."""
+    return output_meant(study.mechanism, output).kind in PLACES
+
 
 #: Most rounds in which the pins follow their forces, and the residual, rad, that ends them.
 ROUNDS, SETTLED = 6, 1e-9
@@ -229,3 +324,78 @@ def _at_hole(load: Load, pin: str, on: str, hole: str) -> Load:
         if one.name not in ("name", "on") and pin in (value if isinstance(value, tuple) else (value,)):
             moved[one.name] = tuple(hole if g == pin else g for g in value) if isinstance(value, tuple) else hole
     return replace(load, **moved)  # type: ignore[arg-type]
+
+
+@dataclass(frozen=True)
+class TurnedByReaction(Law):
+    """q in rad through ``angles`` at equal times of a ``period`` (s), which repeats: a cubic spline on every arc
+    between jumps after the positions ``jumps``. The error of its second derivative falls with the step squared."""
+
+    key: ClassVar[str] = "turned"
+    period: float
+    angles: tuple[float, ...]
+    jumps: tuple[int, ...] = ()
+    rotary: bool = True
+    spline: PPoly = field(init=False, repr=False, compare=False)
+    drift: float = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        from scipy.interpolate import CubicSpline
+
+        count, first = len(self.angles), self.jumps[0] + 1 if self.jumps else 0
+        ordered = np.roll(np.array(self.angles), -first)
+        turned: Floats = np.unwrap(np.append(ordered, ordered[0]))
+        times: Floats = self.period / count * (first + np.arange(count + 1, dtype=np.float64))
+        drift = 0.0 if self.jumps else (turned[-1] - turned[0]) / self.period
+        if self.jumps:
+            ends = [*(jump - first + 1 for jump in self.jumps[1:]), count]
+            spline = _arcs(times, turned, ends)
+        else:
+            level = turned - drift * times
+            level[-1] = level[0]
+            spline = CubicSpline(times, level, bc_type="periodic")
+        object.__setattr__(self, "spline", spline)
+        object.__setattr__(self, "drift", drift)
+
+    @classmethod
+    def of(cls, angles: Array, jumps: Sequence[int], period: float) -> Self:
+        """The law through ``angles`` (n,)."""
+        return cls(period, tuple(angles.tolist()), tuple(jumps))
+
+    def coordinate(self, t: Array) -> tuple[Array, Array, Array]:
+        return self.spline(t) + self.drift * t, self.spline(t, 1) + self.drift, self.spline(t, 2)
+
+    def natural_duration(self) -> float | None:
+        return self.period
+
+    @classmethod
+    def fields(cls, rotary: bool) -> Mapping[str, Field]:
+        return TableLaw.fields(rotary)
+
+    @classmethod
+    def from_values(
+        cls, values: Mapping[str, object], rotary: bool, parameters: Mapping[str, float]
+    ) -> TurnedByReaction:
+        table = values["table"]
+        assert isinstance(table, TimeTableValues)
+        return cls(table.times[-1], table.positions[:-1])
+
+    def text_values(self) -> Mapping[str, object]:
+        times = np.linspace(0.0, self.period, len(self.angles) + 1)
+        return {"table": TimeTableValues(tuple(times.tolist()), (*self.angles, self.angles[0]), "linear")}
+
+
+def _arcs(times: Floats, angles: Floats, ends: Sequence[int]) -> PPoly:
+    """Arcs that end before the knots of the numbers ``ends``; each goes on through the interval of the jump."""
+    from scipy.interpolate import CubicSpline, PPoly
+
+    pieces, begin = np.zeros((4, len(times) - 1)), 0
+    for end in ends:
+        pieces[3, end - 1] = angles[end - 1]
+        if end - begin > 1:
+            arc = CubicSpline(times[begin:end], angles[begin:end])
+            pieces[:, begin : end - 1] = arc.c
+            last = times[end - 1]
+            pieces[1:, end - 1] = 0.5 * arc(last, 2), arc(last, 1), arc(last)
+        begin = end
+    return PPoly(pieces, times, extrapolate="periodic")
