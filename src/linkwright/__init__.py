@@ -30,7 +30,7 @@ ATTACHED.update(
         "Motion.refusal": "linkwright.kinematics.refusal:refusal",
         "Motion.to_dataframe": "linkwright.kinematics.table:motion_frame",
         "Optimum.tables": "linkwright.designs.optimise.optimum:tables",
-        "PlotMixin.plot": "linkwright.plotting.diagrams.diagram_by_name:plot",
+        "PlotMixin.plot": "linkwright.plotting.diagrams.base:plot",
         "Problem.sketch": "linkwright.plotting.sketches.base:sketch",
         "Rack.draw": "linkwright.plotting.true_shapes:draw_rack",
         "Rack.save_dxf": "linkwright.exporters.dxf.true_shapes:save_rack",

@@ -94,7 +94,7 @@ from .pictures.diagram import Diagram as Diagram
 from .pictures.drawing import Drawing as Drawing
 from .plotting.animation import Animation as Animation
 from .plotting.animation import animate as animate
-from .plotting.diagrams.diagram_by_name import plot as plot
+from .plotting.diagrams.base import plot as plot
 from .plotting.drawing.draw import draw as draw
 from .reports.report import Report as Report
 from .reports.report import report as report

@@ -12,7 +12,7 @@ import linkwright as lw
 from linkwright.cli import main
 from linkwright.designs.tolerance import Tolerance, ToleranceStudy
 from linkwright.plotting.animation import animate
-from linkwright.plotting.diagrams.diagram_by_name import plot
+from linkwright.plotting.diagrams.base import plot
 
 
 def test_commands_take_one_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

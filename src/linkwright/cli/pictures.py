@@ -164,8 +164,7 @@ def cycle(mechanism: Mechanism, steps: int, session: Session) -> Motion:
 
 def refuse_diagram(options: Options) -> None:
     """Raises UsageError for an unknown kind, or an option that a kind does not have."""
-    from linkwright.plotting.diagrams.base import OPTIONS
-    from linkwright.plotting.diagrams.diagram_by_name import require_kind, require_options
+    from linkwright.plotting.diagrams.base import OPTIONS, require_kind, require_options
 
     with about("--kind", UsageError, LinkwrightError):
         require_kind(options.kind)

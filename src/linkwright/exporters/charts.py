@@ -17,7 +17,7 @@ from linkwright.mechanism.force_names import reaction_pairs
 from linkwright.pictures.diagram import COLOURS
 from linkwright.pictures.picture import round_up
 from linkwright.plotting.diagrams.base import title_of
-from linkwright.plotting.diagrams.outputs import joint_and_link, loaded, main_outputs
+from linkwright.plotting.diagrams.source import joint_and_link, loaded, main_outputs
 from linkwright.words import Message, _
 from linkwright.words.characters import printable
 

@@ -23,9 +23,8 @@ from linkwright.mechanism.link import Link
 from linkwright.page.contacts import CamContact, RackWay, Wheel, Wheels, contact_shape
 from linkwright.pictures.symbols.base import PIN, SYMBOLS, Shape
 from linkwright.plotting.drawing.guides import clear_shift, ground_side, input_arrows, is_cylinder, travel, welds
-from linkwright.plotting.drawing.load_marks import Press, Turn, mark_of
 from linkwright.plotting.drawing.loads import named_points, pressing
-from linkwright.plotting.drawing.machine import DrawnMechanism, Part, bodies, flat, pins
+from linkwright.plotting.drawing.machine import DrawnMechanism, Part, Press, Turn, bodies, flat, mark_of, pins
 
 _LENGTHS = 2
 

@@ -28,8 +28,7 @@ from linkwright.pictures.picture import Circle, SvgNode
 from linkwright.pictures.svg.element import group
 from linkwright.pictures.svg.render import png
 from linkwright.plotting.diagrams.source import PlotInput
-from linkwright.plotting.drawing.draw import Names, all_arrows, solved
-from linkwright.plotting.drawing.legend import Legend
+from linkwright.plotting.drawing.draw import Legend, Names, all_arrows, solved
 from linkwright.plotting.drawing.loads import load_marks, moving_springs
 from linkwright.plotting.drawing.moving import (
     Panel,
@@ -40,8 +39,7 @@ from linkwright.plotting.drawing.moving import (
     shift_text,
     shifted,
 )
-from linkwright.plotting.drawing.positions import frame_indices, key_indices, usual_seconds
-from linkwright.plotting.drawing.scene import Scene, laid_out, point_labels
+from linkwright.plotting.drawing.scene import Scene, frame_indices, key_indices, laid_out, point_labels, usual_seconds
 from linkwright.plotting.drawing.vectors import Arrows, scale_of
 from linkwright.words import _
 from linkwright.words.sentence import in_language

@@ -12,8 +12,7 @@ from linkwright.pictures.svg.element import group
 from linkwright.pictures.svg.render import natural_size
 from linkwright.plotting.drawing.draw import laid_out_with_ghosts
 from linkwright.plotting.drawing.machine import Part
-from linkwright.plotting.drawing.positions import Shown
-from linkwright.plotting.drawing.scene import Scene, point_labels
+from linkwright.plotting.drawing.scene import Scene, Shown, point_labels
 from linkwright.reports.machine_results import ReportContext
 
 

@@ -13,7 +13,7 @@ from linkwright.analysis.table import MetricsTable
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.plotting.diagrams.outputs import main_output
+from linkwright.plotting.diagrams.source import main_output
 
 #: Numbers whose recommended limits say how a machine passes on forces: the first that is exceeded is examined.
 JUDGED = ("transmission_angle", "pressure_angle", "singularity")

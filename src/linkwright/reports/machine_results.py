@@ -281,7 +281,7 @@ class ReportContext:
     # pictures -----------------------------------------------------------------------------------
     def diagram(self, kind: str, source: object = None, **options: object) -> str:
         """A diagram as SVG text."""
-        from linkwright.plotting.diagrams.diagram_by_name import plot
+        from linkwright.plotting.diagrams.base import plot
 
         shown: Diagram = plot(
             self.result if source is None else source,  # type: ignore[arg-type]

@@ -13,11 +13,16 @@ from linkwright.core.quantity import per_mm
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.pictures.labels import Name, put
 from linkwright.pictures.picture import MIN_TEXT, Picture, as_runs, indexed, joined
-from linkwright.plotting.diagrams.motion_polygons import arrows, gathered
-from linkwright.plotting.diagrams.motion_vectors import MotionPolygon, acceleration_polygon, velocity_polygon
-from linkwright.plotting.diagrams.names import LOW
+from linkwright.plotting.diagrams.marks import LOW
+from linkwright.plotting.diagrams.motion_polygons import (
+    MotionPolygon,
+    acceleration_polygon,
+    arrows,
+    gathered,
+    velocity_polygon,
+)
 from linkwright.plotting.diagrams.scaled_page import SHARES, SHORT, corners, end_to_end
-from linkwright.plotting.free_bodies.actions import Action
+from linkwright.plotting.free_bodies import Action
 from linkwright.sheets.panel import Drawn, Panel, preferred
 from linkwright.sheets.positions import Positions, Shown
 from linkwright.words import Message, _

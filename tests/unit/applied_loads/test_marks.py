@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.plotting.drawing.load_marks import mark_of
+from linkwright.plotting.drawing.machine import mark_of
 
 MODEL = """format: 1
 frame: {points: {O: [0 m, 0 m]}}

@@ -14,9 +14,8 @@ from linkwright.kinematics.names import output_meant
 from linkwright.pictures import diagram as picture
 from linkwright.pictures.picture import round_up
 from linkwright.plotting.diagrams.axes import significant, unit_of
-from linkwright.plotting.diagrams.base import DIAGRAMS, RESULT_DIAGRAMS, title_of
-from linkwright.plotting.diagrams.diagram_by_name import plot
-from linkwright.plotting.diagrams.outputs import main_output
+from linkwright.plotting.diagrams.base import DIAGRAMS, RESULT_DIAGRAMS, plot, title_of
+from linkwright.plotting.diagrams.source import main_output
 
 CRUSHER = store.machine("jaw_crusher_sixbar")
 

@@ -17,7 +17,7 @@ from linkwright.applied_loads import base
 from linkwright.applied_loads.base import LOADS, LinkPoint, Load
 from linkwright.applied_loads.site import Site, Wrench
 from linkwright.plotting.animation import animate
-from linkwright.plotting.drawing.load_marks import Mark, Push, mark_of
+from linkwright.plotting.drawing.machine import Mark, Push, mark_of
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -92,7 +92,7 @@ def test_rails_reach_to_the_limit_positions_that_are_drawn(steps: int) -> None:
     from linkwright.events.limit_positions import limits_of
     from linkwright.plotting.drawing.draw import laid_out_with_ghosts
     from linkwright.plotting.drawing.guides import travel
-    from linkwright.plotting.drawing.positions import Shown, with_limits
+    from linkwright.plotting.drawing.scene import Shown, with_limits
 
     motion = store.motion("slider_crank_inline", steps)
     denser, indices = with_limits(motion, limits_of(motion))

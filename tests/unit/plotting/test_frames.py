@@ -4,7 +4,7 @@ import pytest
 from tests import store
 
 from linkwright.plotting.animation import animate
-from linkwright.plotting.drawing.positions import parting
+from linkwright.plotting.drawing.scene import parting
 
 
 @pytest.mark.parametrize("name", ["crank_rocker", "peaucellier", "oldham_coupling", "dyad_rpp"])

@@ -14,14 +14,14 @@ from tests.refusals import refused
 import linkwright as lw
 from linkwright.pictures.picture import Line, Text
 from linkwright.pictures.sketch import Sketch
-from linkwright.plotting.diagrams.force_polygon import link_forces, polygon_cell
-from linkwright.plotting.diagrams.motion_polygons import image_names
-from linkwright.plotting.diagrams.motion_vectors import (
+from linkwright.plotting.diagrams.motion_polygons import (
     MotionPolygon,
     acceleration_polygon,
+    image_names,
     place_of,
     velocity_polygon,
 )
+from linkwright.plotting.diagrams.pages import link_forces, polygon_cell
 from linkwright.plotting.diagrams.scaled_page import (
     BAR,
     MILLIMETRE,

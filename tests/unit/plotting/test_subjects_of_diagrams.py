@@ -6,7 +6,7 @@ import pytest
 from tests.invariants.bracket_machines import on_a_bracket
 
 import linkwright as lw
-from linkwright.plotting.diagrams.outputs import joint_and_link, main_output, traced_points
+from linkwright.plotting.diagrams.source import joint_and_link, main_output, traced_points
 
 
 @pytest.mark.parametrize("name", ["jaw_crusher_sixbar", "shaper_quick_return", "whitworth", "dyad_rpr"])

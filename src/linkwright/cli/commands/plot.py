@@ -12,7 +12,7 @@ from linkwright.cli.session import Session
 from linkwright.core.arguments import CURVE_STEPS
 from linkwright.fields.base import Number
 from linkwright.machine.flywheel import COEFFICIENT
-from linkwright.plotting.diagrams.diagram_by_name import kinds
+from linkwright.plotting.diagrams.base import kinds
 from linkwright.words import _
 
 SETTINGS = ("of", "joint", "on", "axes", "fluctuation", "static", "title")
@@ -83,7 +83,7 @@ linkwright plot first.yaml second.yaml --kind reactions --joint O5"""
 @force
 def run(options: Options, session: Session) -> int:
     """Draws a diagram and writes it; 1 where a position is not reached."""
-    from linkwright.plotting.diagrams.diagram_by_name import plot
+    from linkwright.plotting.diagrams.base import plot
 
     refuse_diagram(options)
     path = Path(options.output) if options.output else default_path(options.files[0], f"-{options.kind}.svg")

@@ -1,1 +1,1 @@
-"""Diagrams of results: curves over the input, hodographs, polygons to scale; one registered file per kind."""
+"""Diagrams of results: curves over the input, hodographs, polygons to scale; the kinds are registered."""

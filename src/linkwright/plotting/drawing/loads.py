@@ -12,8 +12,7 @@ from linkwright.pictures.picture import SvgNode, Vec
 from linkwright.pictures.symbols.base import EMPTY, SYMBOLS, Shape, joined
 from linkwright.pictures.symbols.joints import HEIGHT, LENGTH
 from linkwright.plotting.drawing.guides import clear_shift, is_cylinder
-from linkwright.plotting.drawing.load_marks import Press, Push, Turn, mark_of
-from linkwright.plotting.drawing.machine import DrawnMechanism
+from linkwright.plotting.drawing.machine import DrawnMechanism, Press, Push, Turn, mark_of
 from linkwright.plotting.drawing.moving import moving_lines
 from linkwright.plotting.drawing.scene import LINK_SIZE, Scene
 

@@ -18,9 +18,9 @@ from linkwright.pictures.diagram import COLOURS, FAINT, Axes, Figure, new_figure
 from linkwright.plotting.diagrams.axes import SYMBOLS, InputAxis, Legend, Unit, make_force_plane, unit_of
 from linkwright.plotting.diagrams.base import Request, framed, result_diagram
 from linkwright.plotting.diagrams.marks import Curve
+from linkwright.plotting.diagrams.motion import ANGULAR, STRAIGHT
 from linkwright.plotting.diagrams.panels import Panel, look, stacked
 from linkwright.plotting.diagrams.source import PlotInput
-from linkwright.plotting.diagrams.sva import ANGULAR, STRAIGHT
 from linkwright.plotting.result_diagrams.design_space import DesignTable, chosen, draw_designs, measure, varied
 from linkwright.registry import offered
 from linkwright.words import Translate, _

@@ -21,13 +21,12 @@ from linkwright.pictures.diagram import Figure
 from linkwright.pictures.drawing import Drawing
 from linkwright.plotting.diagrams.axes import InputAxis
 from linkwright.plotting.diagrams.base import Request, result_diagram
-from linkwright.plotting.diagrams.force_polygon import force_text
 from linkwright.plotting.diagrams.marks import Curve
+from linkwright.plotting.diagrams.pages import force_text
 from linkwright.plotting.diagrams.panels import Panel, stacked
 from linkwright.plotting.diagrams.scaled_page import Cell, Vector, page, vector_cell
 from linkwright.plotting.drawing.draw import draw
-from linkwright.plotting.sketches.bodies import on_supports
-from linkwright.plotting.sketches.forces import FLAT
+from linkwright.plotting.sketches.statics import FLAT, on_supports
 from linkwright.words import _
 
 #: Longest arrow, and longest side of a body, units of the paper.

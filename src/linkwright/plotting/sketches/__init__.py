@@ -1,1 +1,1 @@
-"""Sketches of calculations: what is given, with supports, loads and dimensions, one file for each family of kinds."""
+"""Sketches of calculations: what is given, with supports, loads and dimensions: statics, and masses."""

@@ -16,7 +16,7 @@ from linkwright.core.quantity import shown
 from linkwright.cycle.summary import Summary
 from linkwright.designs.evaluation import value_text
 from linkwright.errors import LinkwrightError
-from linkwright.plotting.diagrams.outputs import main_outputs
+from linkwright.plotting.diagrams.source import main_outputs
 from linkwright.reports.document import Block, Paragraph, literal
 from linkwright.reports.improvements import EFFORT, broken, improvements
 from linkwright.reports.machine_results import Missing, ReportContext

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from linkwright.errors import LinkwrightError
 from linkwright.plotting.diagrams.base import title_of
-from linkwright.plotting.diagrams.outputs import main_outputs
+from linkwright.plotting.diagrams.source import main_outputs
 from linkwright.reports.document import Block, Figure, Paragraph, literal
 from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.section import section

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from linkwright.plotting.flow_chart.content import flow_chart_steps
-from linkwright.plotting.flow_chart.picture import TALLEST, flow_chart_pages
+from linkwright.plotting.flow_chart import TALLEST, flow_chart_pages
+from linkwright.plotting.solution_steps import flow_chart_steps
 from linkwright.reports.document import Block, Figure, Paragraph
 from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.own_size import own_share

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.kinetostatics.forces import Forces
-from linkwright.plotting.free_bodies.actions import idle_loads
-from linkwright.plotting.free_bodies.page import free_body_pages
+from linkwright.plotting.free_bodies import idle_loads
+from linkwright.plotting.free_body_pages import free_body_pages
 from linkwright.reports.document import Block, Figure, Paragraph, literal
 from linkwright.reports.machine_results import NO_LOADS, Missing, ReportContext
 from linkwright.reports.own_size import own_share

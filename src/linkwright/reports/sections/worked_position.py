@@ -9,7 +9,7 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.pictures.drawing import PIXELS
 from linkwright.pictures.svg.render import natural_size
 from linkwright.plotting.diagrams.base import title_of
-from linkwright.plotting.diagrams.force_polygon import link_forces
+from linkwright.plotting.diagrams.pages import link_forces
 from linkwright.reports.document import Block, Figure, Heading, Paragraph, literal, symbols
 from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.section import section

@@ -12,12 +12,11 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.pictures.picture import as_runs, indexed
 from linkwright.plotting.diagrams.axes import SYMBOLS, InputAxis
 from linkwright.plotting.diagrams.base import Request
-from linkwright.plotting.diagrams.force_polygon import link_forces, worth_drawing
-from linkwright.plotting.diagrams.outputs import main_output
+from linkwright.plotting.diagrams.forces import Torque
+from linkwright.plotting.diagrams.motion import Sva
+from linkwright.plotting.diagrams.pages import link_forces, worth_drawing
 from linkwright.plotting.diagrams.panels import Panel as Plotted
-from linkwright.plotting.diagrams.source import PlotInput
-from linkwright.plotting.diagrams.sva import Sva
-from linkwright.plotting.diagrams.torque import Torque
+from linkwright.plotting.diagrams.source import PlotInput, main_output
 from linkwright.sheets.curves import CurvePanel
 from linkwright.sheets.machine import MachinePanel
 from linkwright.sheets.machine_tables import data_table, force_table, motion_table

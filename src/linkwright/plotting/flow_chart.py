@@ -1,5 +1,4 @@
-"""The symbols of a flow chart at their places: columns, the lines between them, connectors where a line would leave
-its column.
+"""The flow chart of a solution: symbols in columns, the lines between them, and its pages as SVG text.
 
 Units are those of the paper; symbols after ISO 5807 (GB/T 1526).
 """
@@ -13,8 +12,12 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.pictures.svg.element import fold, width
-from linkwright.plotting.flow_chart.content import Node, Shape
+from linkwright.pictures.drawing import document
+from linkwright.pictures.picture import Circle, Line, SvgNode, Text, sentence_runs
+from linkwright.pictures.svg.element import Element, element, fold, width
+from linkwright.pictures.symbols.arrows import head
+from linkwright.pictures.symbols.base import points, vec, way
+from linkwright.plotting.solution_steps import Node, Shape
 
 #: Height of letters and of lines, widest text of a symbol, of a decision, of what stands aside.
 SIZE, LINE, WIDEST, NARROWER, ASIDE = 13.0, 17.0, 190.0, 100.0, 84.0
@@ -57,7 +60,7 @@ class Box:
 
 
 @dataclass(frozen=True)
-class Line:
+class FlowLine:
     """A line through corners (k, 2); ``arrow``: whether it has a head at its end."""
 
     corners: Floats
@@ -78,7 +81,7 @@ class Page:
     """The content of a page: symbols, lines, words, connectors with their letters."""
 
     boxes: list[Box] = field(default_factory=list)
-    lines: list[Line] = field(default_factory=list)
+    lines: list[FlowLine] = field(default_factory=list)
     words: list[Word] = field(default_factory=list)
     circles: list[tuple[float, float, str]] = field(default_factory=list)
 
@@ -230,15 +233,15 @@ class _Chart:
         if node.down:
             sheet.words.append(Word(node.down, a.middle + 6.0, a.box.bottom + SIZE))
         if (a.page, a.column) == (b.page, b.column):
-            sheet.lines.append(Line(np.array([start, (b.middle, b.box.top)])))
+            sheet.lines.append(FlowLine(np.array([start, (b.middle, b.box.top)])))
             return
         letter = next(self.letters)
         below = a.box.bottom + GAP
-        sheet.lines.append(Line(np.array([start, (a.middle, below)])))
+        sheet.lines.append(FlowLine(np.array([start, (a.middle, below)])))
         sheet.circles.append((a.middle, below + RADIUS, letter))
         above = b.box.top - GAP
         self.sheets[b.page].circles.append((b.middle, above - RADIUS, letter))
-        self.sheets[b.page].lines.append(Line(np.array([(b.middle, above), (b.middle, b.box.top)])))
+        self.sheets[b.page].lines.append(FlowLine(np.array([(b.middle, above), (b.middle, b.box.top)])))
 
     def _jump(self, index: int, lanes: Iterator[float]) -> None:
         """The line of a decision's second exit to where it jumps."""
@@ -251,7 +254,7 @@ class _Chart:
             box = replace(box, x=x0 + box.x)
             sheet.boxes.append(box)
             left = box.corners[0] + LEAN / 2
-            sheet.lines.append(Line(np.array([(x0 + source.box.half_width, y0), (left, y0)])))
+            sheet.lines.append(FlowLine(np.array([(x0 + source.box.half_width, y0), (left, y0)])))
             sheet.words.append(Word(node.across, x0 + source.box.half_width + 1.0, y0 - 5.0))
             self._forward(source, target, box, near=near)
             return
@@ -260,7 +263,7 @@ class _Chart:
         way = [(x0 - source.box.half_width, y0), (lane, y0)]
         if near:
             y1 = target.entry[1]
-            sheet.lines.append(Line(np.array([*way, (lane, y1), (x0, y1)])))
+            sheet.lines.append(FlowLine(np.array([*way, (lane, y1), (x0, y1)])))
             return
         lane = x0 + BACK[0]
         self._connected(source, target, np.array([way[0], (lane + RADIUS, y0)]), (lane, y0), -1.0)
@@ -271,7 +274,7 @@ class _Chart:
         lane = x0 + FORWARD
         if near:
             y1 = target.entry[1]
-            sheet.lines.append(Line(np.array([(lane, box.bottom), (lane, y1), (x0, y1)])))
+            sheet.lines.append(FlowLine(np.array([(lane, box.bottom), (lane, y1), (x0, y1)])))
             return
         y1 = box.bottom + 0.6 * GAP
         line = np.array([(lane, box.bottom), (lane, y1)])
@@ -280,9 +283,96 @@ class _Chart:
     def _connected(self, source: _Seat, target: _Seat, line: Floats, place: tuple[float, float], side: float) -> None:
         """A line to a connector, and the connector at the side of the target's entry."""
         letter, (x1, y1) = next(self.letters), target.entry
-        self.sheets[source.page].lines.append(Line(line))
+        self.sheets[source.page].lines.append(FlowLine(line))
         self.sheets[source.page].circles.append((*place, letter))
         reach = FORWARD if side > 0 else -BACK[0]
         there = self.sheets[target.page]
         there.circles.append((x1 + side * reach, y1, letter))
-        there.lines.append(Line(np.array([(x1 + side * (reach - RADIUS), y1), (x1, y1)])))
+        there.lines.append(FlowLine(np.array([(x1 + side * (reach - RADIUS), y1), (x1, y1)])))
+
+
+#: Printed width of a unit, mm: two columns fill the width of an A4 page's text, and letters have 8.5 points.
+MILLIMETRE = 0.23
+#: Height of a page's picture, mm, and columns on it.
+TALLEST, COLUMNS = 205.0, 2
+
+
+def flow_chart_pages(nodes: Sequence[Node], title: str, *, columns: int = COLUMNS, heading: str = "") -> list[str]:
+    """SVG text of every page, to be printed in its own size; ``columns`` on a page, ``heading`` above."""
+    sheets = laid_out(nodes, TALLEST / MILLIMETRE, columns)
+    return [_document(sheet, title, heading) for sheet in sheets]
+
+
+def _document(sheet: Page, title: str, heading: str) -> str:
+    wide, tall = sheet.size
+    left = min(float(line.corners[:, 0].min()) for line in sheet.lines)
+    left = min(left, *(box.corners[0] for box in sheet.boxes), *(x - RADIUS for x, _, _ in sheet.circles), wide)
+    content = [each for part in (_lines(sheet), _boxes(sheet), _marks(sheet)) for each in part]
+    top = 0.0
+    if heading:
+        lines = fold(heading, wide - left, SIZE)
+        top = -LINE * (len(lines) + 0.8)
+        content += [
+            Text((left, top + LINE * number + SIZE), sentence_runs(line), "lw-legend", SIZE)
+            for number, line in enumerate(lines)
+        ]
+    return document(content, (left, top, wide, tall), title, None, millimetre=MILLIMETRE)
+
+
+def _lines(sheet: Page) -> Iterator[SvgNode]:
+    for line in sheet.lines:
+        yield Line(line.corners, "lw-flow-line")
+        if line.arrow:
+            _, along = way(line.corners[-2], line.corners[-1])
+            yield head(vec(line.corners[-1]), along, 9.0, "lw-flow-head")
+
+
+def _boxes(sheet: Page) -> Iterator[SvgNode]:
+    for box in sheet.boxes:
+        yield from _outline(box)
+        first = box.y - LINE * len(box.lines) / 2 + 0.5 * (LINE + 0.7 * SIZE)
+        for number, text in enumerate(box.lines):
+            style = "lw-legend lw-flow-call" if number < box.bold else "lw-legend"
+            yield Text((box.x, first + LINE * number), sentence_runs(text), style, SIZE, "middle")
+
+
+def _outline(box: Box) -> Iterator[SvgNode]:
+    left, top, right, bottom = box.corners
+    match box.shape:
+        case "terminator":
+            yield _rectangle(box, rx=box.half_height)
+        case "data":
+            lean = [(left + LEAN, top), (right, top), (right - LEAN, bottom), (left, bottom)]
+            yield Line(points(lean), "lw-flow", closed=True)
+        case "preparation":
+            tip = min(LEAN, box.half_height)
+            hexagon = [
+                (left - tip + LEAN / 2, box.y),
+                (left + LEAN / 2, top),
+                (right - LEAN / 2, top),
+                (right + tip - LEAN / 2, box.y),
+                (right - LEAN / 2, bottom),
+                (left + LEAN / 2, bottom),
+            ]
+            yield Line(points(hexagon), "lw-flow", closed=True)
+        case "decision":
+            yield Line(points([(left, box.y), (box.x, top), (right, box.y), (box.x, bottom)]), "lw-flow", closed=True)
+        case _:
+            yield _rectangle(box)
+            if box.shape == "call":
+                for x in (left + BARS, right - BARS):
+                    yield Line(np.array([(x, top), (x, bottom)]), "lw-flow-line")
+
+
+def _rectangle(box: Box, rx: float | None = None) -> Element:
+    left, top, right, bottom = box.corners
+    size = {"x": left, "y": top, "width": right - left, "height": bottom - top}
+    return element("rect", {"class": "lw-flow", **size, "rx": rx})
+
+
+def _marks(sheet: Page) -> Iterator[SvgNode]:
+    for word in sheet.words:
+        yield Text((word.x, word.y), sentence_runs(word.text), "lw-legend", SIZE)
+    for x, y, letter in sheet.circles:
+        yield Circle((x, y), RADIUS, "lw-flow")
+        yield Text((x, y + 0.36 * SIZE), sentence_runs(letter), "lw-legend", SIZE, "middle")

@@ -17,8 +17,18 @@ from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.svg.element import fold
 from linkwright.plotting.diagrams.scaled_page import page
 from linkwright.plotting.drawing.vectors import with_unit
-from linkwright.plotting.free_bodies.actions import STYLES, Action, FreeBody, free_bodies
-from linkwright.plotting.free_bodies.picture import MILLIMETRE, SHORT, STUB, BodySketch, LinkShapes, body_sketch
+from linkwright.plotting.free_bodies import (
+    MILLIMETRE,
+    SHORT,
+    STUB,
+    STYLES,
+    Action,
+    BodySketch,
+    FreeBody,
+    LinkShapes,
+    body_sketch,
+    free_bodies,
+)
 from linkwright.words import Translate, _, pgettext
 from linkwright.words.sentence import link_label
 

@@ -1,1 +1,0 @@
-"""The flow chart of a solution: its steps, their symbols, columns and pages."""
