@@ -11,10 +11,10 @@ import linkwright as lw
 from linkwright.formula.program import Program
 from linkwright.formula.trace import Scalar
 from linkwright.kinematics.cycle import over_cycle
-from linkwright.kinematics.outputs import MotionOutputs
 from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.programs import Manner
 from linkwright.kinematics.solver import MotionSolver
+from linkwright.kinematics.trace import MotionOutputs
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.mechanism.mechanism import Mechanism
 

@@ -69,8 +69,8 @@ from .gears.pair import gear_pair as gear_pair
 from .gears.rack import Rack as Rack
 from .kinematics.input_range import input_range as input_range
 from .kinematics.motion import Motion as Motion
-from .kinematics.outcome import Outcome as Outcome
-from .kinematics.outcome import PositionError as PositionError
+from .kinematics.motion import Outcome as Outcome
+from .kinematics.motion import PositionError as PositionError
 from .kinematics.proof import prove as prove
 from .kinematics.solve import solve_motion as solve_motion
 from .kinetostatics.forces import Forces as Forces

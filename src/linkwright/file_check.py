@@ -136,7 +136,7 @@ def _of_machine(mechanism: Mechanism, folder: str, *, rests: bool) -> tuple[list
     """What only structure, motion and loads show to be wrong, and the structure in short; ``rests``: what an output
     never does in a load's phase is reported already."""
     from linkwright.kinematics.assembly import AssemblyError
-    from linkwright.kinematics.passing_proof import plainly_passed
+    from linkwright.kinematics.passing import plainly_passed
     from linkwright.kinematics.structure_with_rank import analysed
 
     try:

@@ -6,7 +6,7 @@ from linkwright.formula.trace import sqrt
 from linkwright.formula.vector import Vec
 from linkwright.groups.base import Solved
 from linkwright.joints.pose import UNTURNED, Rotor
-from linkwright.kinematics.closure import pair_of
+from linkwright.kinematics.groups import pair_of
 
 
 class ThreeGuides:

@@ -14,7 +14,7 @@ from linkwright.core.arguments import one_or_more, require
 from linkwright.core.arrays import Flags
 from linkwright.core.quantity import ZERO_TOLERANCES
 from linkwright.errors import RequestError
-from linkwright.kinematics.full_turns import MOST
+from linkwright.kinematics.cycle import MOST
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import ROUNDING, Forces
 from linkwright.mechanism.mechanism import Mechanism

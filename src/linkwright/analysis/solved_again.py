@@ -13,10 +13,9 @@ from linkwright.applied_loads.base import Load
 from linkwright.applied_loads.over_cycle import activity
 from linkwright.core.arrays import Flags, Floats
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.between_positions import Between
+from linkwright.kinematics.between_positions import Between, Reach
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.reachable_intervals import Reach
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.forces import Forces

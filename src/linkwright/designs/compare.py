@@ -21,7 +21,7 @@ from linkwright.core.table import Table, Tabular, unused
 from linkwright.designs.alternatives import Alternative, alternatives
 from linkwright.designs.criteria import USUAL, Criterion, criteria
 from linkwright.errors import LinkwrightError, RequestError, with_remedy
-from linkwright.kinematics.outcome import PositionError
+from linkwright.kinematics.motion import PositionError
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered

@@ -30,7 +30,7 @@ from linkwright.formula.machine_code import available
 from linkwright.formula.summaries import Backend
 from linkwright.formula.threads import chunks
 from linkwright.kinematics.cycle import over_cycle
-from linkwright.kinematics.design import Design
+from linkwright.kinematics.dimensions import Design
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.solve import MotionRun, solve_motion

@@ -25,7 +25,7 @@ from linkwright.formula.summaries import Backend, Run, code_for, summaries
 from linkwright.kinematics.assembly import modal_groups
 from linkwright.kinematics.change_points import MEETING, TOUCH
 from linkwright.kinematics.cycle import over_cycle
-from linkwright.kinematics.passing_proof import NEAR
+from linkwright.kinematics.passing import NEAR
 from linkwright.kinematics.positions import Positions
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import Message, _

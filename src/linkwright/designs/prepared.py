@@ -24,10 +24,10 @@ from linkwright.formula.summaries import BACKENDS, Backend
 from linkwright.formula.trace import Mask, absolute, minimum, select, sign
 from linkwright.kinematics.change_points import nearness, parts
 from linkwright.kinematics.cycle import over_cycle
-from linkwright.kinematics.design import Design
+from linkwright.kinematics.dimensions import Design
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.names import program_names
-from linkwright.kinematics.passing_proof import NEAR
+from linkwright.kinematics.passing import NEAR
 from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinetostatics.forces import Forces

@@ -2,7 +2,7 @@
 
 The group is cut out of a small mechanism in which its outer links, ``base_1`` and ``base_2``, are driven; here
 their states are inputs of the program instead. Positions, rates and forces come from the solvers of mechanisms
-(:class:`~linkwright.kinematics.groups.GroupTracer`, :class:`~linkwright.kinematics.rates.RateTracer`,
+(:class:`~linkwright.kinematics.groups.GroupTracer`, :class:`~linkwright.kinematics.trace.RateTracer`,
 :func:`~linkwright.kinetostatics.trace.trace_forces`), so from the closed forms of :mod:`linkwright.groups`.
 """
 
@@ -19,12 +19,10 @@ from linkwright.formula.trace import Scalar, Trace, Value
 from linkwright.formula.vector import ZERO, Vec
 from linkwright.groups.base import Dyad
 from linkwright.joints.pose import FRAME_POSE, FRAME_STATE, UNTURNED, Pose, Rotor, State
-from linkwright.kinematics.angles import Angles
 from linkwright.kinematics.dimensions import Dimensions, DriverInput
 from linkwright.kinematics.groups import GroupTracer, Placed, dyad_shape
-from linkwright.kinematics.outputs import MotionOutputs
-from linkwright.kinematics.rates import RateTracer
-from linkwright.kinematics.trace import MotionTrace
+from linkwright.kinematics.rotations import Angles
+from linkwright.kinematics.trace import MotionOutputs, MotionTrace, RateTracer
 from linkwright.kinetostatics.trace import ForceTrace, trace_forces
 from linkwright.topology import structure
 

@@ -14,7 +14,7 @@ from linkwright.core.arrays import Flags, Floats
 from linkwright.dyads.cell import Cell, cell
 from linkwright.dyads.values import Line, Slide, State, line_inputs, numbers, point_inputs
 from linkwright.errors import RequestError
-from linkwright.kinematics.outcome import Outcome, PositionError
+from linkwright.kinematics.motion import Outcome, PositionError
 from linkwright.words import _
 
 #: What becomes of positions in which a dyad cannot be assembled.

@@ -15,8 +15,8 @@ from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.curves.pieces import HIGH, LOW, Columns
 from linkwright.events.formula import PLACE, ROW
 from linkwright.formula.trace import Mask, Scalar, Trace, absolute, angle, cos, sin
-from linkwright.kinematics.angles import geared, turn_state
 from linkwright.kinematics.groups import CONVERGED, state_name
+from linkwright.kinematics.rotations import geared, turn_state
 from linkwright.kinematics.trace import MotionTrace
 
 #: Misfit of a quintic (rad, or share of the mechanism's size) from which two of Newton's steps end well also near

@@ -22,10 +22,9 @@ from linkwright.events.formula import ROW, Known
 from linkwright.events.solved_again import SolvedAgain, kink_rows, of_bounded_rate, of_kinks, of_rate, solved_at
 from linkwright.events.stretches import Span, Stretches
 from linkwright.formula.recently_made import Recent
-from linkwright.kinematics.between_positions import Between
+from linkwright.kinematics.between_positions import Between, Reach
 from linkwright.kinematics.motion import TURN, Motion
 from linkwright.kinematics.names import place_meant, program_names
-from linkwright.kinematics.reachable_intervals import Reach
 from linkwright.words import _
 
 #: An output whose largest rate is below this share of the mechanism's does not move.

@@ -1,7 +1,7 @@
 """One step along a path of a group without closed form, of many designs at once, and whether it is certain.
 
 It is predicted with the exact rates and the last third derivative, corrected by Newton's method, and judged by the
-rule of steps (:mod:`linkwright.kinematics.step_rule`).
+rule of steps (:mod:`linkwright.kinematics.branch`).
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from linkwright.events.formula import Formula, Known
 from linkwright.formula.program import Program
 from linkwright.formula.replay import inlined
 from linkwright.formula.trace import Scalar, Trace, absolute, maximum, select
+from linkwright.kinematics.branch import LARGEST, doubt, misfit
 from linkwright.kinematics.groups import CONVERGED
-from linkwright.kinematics.step_rule import LARGEST, doubt, misfit
 from linkwright.kinematics.trace import MotionTrace
 
 #: Columns of a step: its length, s, and what a correction may be in addition to its share of it.

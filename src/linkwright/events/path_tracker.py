@@ -16,8 +16,8 @@ from linkwright.events.course import Course
 from linkwright.events.following import DEGREE, FIT, Paths
 from linkwright.events.formula import Known
 from linkwright.events.path_step import PathStep, Place
+from linkwright.kinematics.branch import ROOM, ROUNDING, misfit, quintic
 from linkwright.kinematics.groups import CONVERGED
-from linkwright.kinematics.step_rule import ROOM, ROUNDING, misfit, quintic
 
 #: Steps of a path in a turn; how many parts those are cut into whose quintics do not fit, one number after the other.
 STEPS, FINER = 24, (4, 16, 64)

@@ -14,8 +14,7 @@ from linkwright.core.outputs import row_name, row_names
 from linkwright.curves.pieces import HIGH, LOW, Columns
 from linkwright.events.formula import FEW, Known
 from linkwright.joints.base import Kinks
-from linkwright.kinematics.between_positions import Between
-from linkwright.kinematics.reachable_intervals import Reach
+from linkwright.kinematics.between_positions import Between, Reach
 
 #: From rows of a program (names, m) values and slopes by the time of signals, (signals, m) each.
 Made = Callable[[Floats], tuple[Floats, Floats]]

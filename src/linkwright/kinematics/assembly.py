@@ -15,8 +15,8 @@ from linkwright.formula.program import Program
 from linkwright.formula.recently_made import Recent
 from linkwright.formula.scalar_backend import ScalarProgram
 from linkwright.formula.trace import Scalar
-from linkwright.kinematics.angles import geared, turn_state
 from linkwright.kinematics.groups import counted, dyad_shape, iterated, state_name
+from linkwright.kinematics.rotations import geared, turn_state
 from linkwright.kinematics.trace import MotionTrace, trace_motion
 from linkwright.mechanism.drawing import Drawing
 from linkwright.mechanism.mechanism import Mechanism

@@ -23,9 +23,8 @@ from linkwright.core.outputs import row_name
 from linkwright.core.search import edge, ends, lowest
 from linkwright.formula.recently_made import Recent
 from linkwright.formula.trace import Scalar, minimum
-from linkwright.kinematics.change_point_crossing import ChangePointCrossing, Kind
 from linkwright.kinematics.groups import upstream
-from linkwright.kinematics.passing_proof import FINE, NEAR, measures, modal
+from linkwright.kinematics.passing import FINE, NEAR, ChangePointCrossing, Kind, measures, modal
 from linkwright.kinematics.positions import Positions, at_times, off_law
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinematics.trace import MotionTrace

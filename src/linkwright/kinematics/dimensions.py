@@ -1,21 +1,27 @@
-"""Dimensions of a mechanism and coordinates of its drivers as traced values: a program's parameters and inputs."""
+"""Dimensions of a mechanism and coordinates of its drivers: as numbers of one design, and as traced values."""
 
 from __future__ import annotations
 
-from collections.abc import Set
+from collections.abc import Mapping, Set
 from dataclasses import dataclass
 from math import cos as cosine
 from math import sin as sine
+from typing import TYPE_CHECKING
 
-from linkwright.core.inputs import Input
+from linkwright.core.inputs import Input, mode_inputs
 from linkwright.drivers.base import Driver
 from linkwright.elements.topology import TreeJoint
+from linkwright.errors import LinkwrightError
+from linkwright.formula.late_import import numpy as np
 from linkwright.formula.symbols import Symbols
-from linkwright.formula.trace import Scalar, Trace, cos, sin, sqrt
+from linkwright.formula.trace import Scalar, Trace, absolute, cos, select, sin, sqrt
 from linkwright.formula.vector import Vec
 from linkwright.kinematics.equation import ChainPair
 from linkwright.mechanism.link import Link, centre, local_points
 from linkwright.mechanism.mechanism import Mechanism
+
+if TYPE_CHECKING:
+    from linkwright.core.arrays import Floats
 
 
 class Dimensions:
@@ -147,3 +153,78 @@ def driver_input(driver: Driver, dimensions: Dimensions) -> DriverInput:
 def turned(name: str, trace: Trace) -> Vec:
     """Cosine and sine of a driver's angle."""
     return Vec(trace.position(Input("cos", name).name), trace.position(Input("sin", name).name))
+
+
+class Design:
+    """A mechanism, perhaps with changed dimensions, and the signs of its assembly modes."""
+
+    __slots__ = ("_mechanism", "_parameters", "base", "changes", "modes")
+
+    def __init__(self, base: Mechanism, modes: Mapping[str, float], changes: Mapping[str, float]) -> None:
+        self.base = base
+        self.modes = modes
+        self.changes = changes
+        self._mechanism: Mechanism | None = None
+        self._parameters: dict[str, float] | None = None
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The mechanism with the changes made."""
+        if self._mechanism is None:
+            self._mechanism = self.base.with_dimensions(self.changes) if self.changes else self.base
+        return self._mechanism
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """Values of all parameters of the programs: dimensions, signs of the assembly modes, paces."""
+        if self._parameters is None:
+            known = self.mechanism
+            self._parameters = {**known.dimensions(), **mode_inputs(self.modes), **paces(known)}
+        return self._parameters
+
+
+#: Share of the drivers' largest rate up to which a rate is rounding, where something reverses.
+ROUNDING = 1e-14
+#: The same where its own rate is not above the second share of the largest one's square: what is at rest.
+STANDING, STEADY = 1e-10, 1e-8
+#: Times of a driver's law among which its largest rate is sought, and of a law that has no duration, s, how long.
+LOOKS, WHILE = 361, 1.0
+
+
+def pace_name(dimension: str) -> str:
+    """Name of the parameter that holds the drivers' largest rate, of an ``angle`` (rad/s) or a ``length`` (m/s)."""
+    return f"pace:{dimension}"
+
+
+def paces(mechanism: Mechanism) -> dict[str, float]:
+    """These parameters; one follows from the other by the size of the mechanism."""
+    size, fastest = mechanism.size, 0.0
+    for driver in mechanism.drivers.values():
+        fastest = max(fastest, _pace(driver, mechanism) / (1.0 if driver.law.rotary else size))
+    return {pace_name("angle"): fastest, pace_name("length"): fastest * size}
+
+
+def moving(rate: Scalar, second: Scalar, pace: Scalar, turning: Scalar) -> Scalar:
+    """A rate with its own rate ``second``, zero at rest; ``pace``: the largest one of its dimension, ``turning``: of
+    angles, rad/s."""
+    steady = absolute(second) <= STEADY * pace * turning
+    rest = select(steady, STANDING * pace, ROUNDING * pace)
+    return select(absolute(rate) <= rest, 0.0, rate)
+
+
+def _pace(driver: Driver, mechanism: Mechanism) -> float:
+    """The largest rate of a driver, rad/s or m/s, within its law or the mechanism's cycle."""
+    law = driver.law
+    if law.constant_speed is not None:
+        return abs(law.constant_speed)
+    first, last = law.span()
+    if not np.isfinite([first, last]).all():
+        cycle = mechanism.cycle
+        first, last = 0.0, law.natural_duration() or (cycle and cycle.duration) or WHILE
+    time = np.union1d(np.linspace(first, last, LOOKS), law.breaks(first, last))
+    try:
+        with np.errstate(all="ignore"):
+            rate: Floats = np.abs(law.coordinate(time)[1])
+    except LinkwrightError:
+        return 0.0
+    return float(rate[np.isfinite(rate)].max(initial=0.0))

@@ -1,12 +1,12 @@
-"""Positions of one group: its driven coordinates, its closed form or Newton's steps."""
+"""Positions of one group: its joints in the trace, its driven coordinates, its closed form or Newton's steps."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from linkwright.elements.topology import Group, TreeJoint
+from linkwright.elements.topology import Connection, Group, TreeJoint
 from linkwright.formula.linear import Matrix, determinant, inverse, product
 from linkwright.formula.recently_made import Recent
 from linkwright.formula.trace import Mask, Scalar, cos, sin, stop
@@ -14,12 +14,64 @@ from linkwright.formula.vector import Vec
 from linkwright.groups.base import DYADS, Chain, Dyad, Solved, WholeGroup
 from linkwright.joints.base import JOINTS
 from linkwright.joints.pose import UNTURNED, Pose, Rotor
-from linkwright.kinematics.angles import Angles, counted_links, geared
-from linkwright.kinematics.closure import Coordinate, cut_of, jacobian, pair_of
 from linkwright.kinematics.dimensions import Dimensions, DriverInput
-from linkwright.kinematics.equation import Equation
+from linkwright.kinematics.equation import ChainPair, Equation
+from linkwright.kinematics.rotations import Angles, counted_links, geared
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.topology.analysis import Structure
+
+Coordinate = Rotor | Scalar | None
+
+
+def cut_of(connection: Connection, dimensions: Dimensions, angles: Callable[[str], Scalar]) -> Equation:
+    """The equation of a cut joint."""
+    return Equation(dimensions.mechanism.joints[connection.joint], connection, dimensions, angles)
+
+
+def pair_of(step: TreeJoint, dimensions: Dimensions) -> ChainPair:
+    """The traced form of a chain's joint."""
+    if step not in dimensions.pairs:
+        joint = dimensions.mechanism.joints[step.joint]
+        dimensions.pairs[step] = ChainPair(joint, step, dimensions)
+    return dimensions.pairs[step]
+
+
+def jacobian(
+    group: Group, cuts: Sequence[Equation], poses: Mapping[str, Pose], dimensions: Dimensions
+) -> list[list[Scalar]]:
+    """Rows: equations of the cuts; columns: the unknown chain coordinates.
+
+    How a unit rate of a coordinate moves and turns the anchor of an end, times the derivatives of the rows by it.
+    """
+    steps = group.unknowns
+    matrix: list[list[Scalar]] = []
+    for cut in cuts:
+        rows: list[list[Scalar]] = [[0.0] * len(steps) for _ in range(cut.rows)]
+        for end, parts in cut.parts(poses).items():
+            tip = poses[end].place
+            for step, turn in _turning(group, end):
+                pivot = poses[step.child].place
+                shift = (tip - pivot).perp if step.turns else pair_of(step, dimensions).normal(poses[step.parent])
+                k = steps.index(step)
+                for row, (x, y, about) in zip(rows, parts, strict=True):
+                    row[k] = row[k] + (x * shift.x + y * shift.y + about * turn)
+                if step.turns:
+                    tip = pivot
+        matrix += rows
+    return matrix
+
+
+def _turning(group: Group, end: str) -> Iterator[tuple[TreeJoint, float]]:
+    """The unknown joints from an end inwards, and whether they turn it.
+
+    1 for the first that turns, as the coordinate of a pin is the absolute rotation of its link; else 0.
+    """
+    first = 1.0
+    for step in group.path(end):
+        if step.free:
+            yield step, first if step.turns else 0.0
+            first = 0.0 if step.turns else first
+
 
 #: Below this ratio of the square under the root to its best value a position is called singular.
 SINGULAR = 1e-10

@@ -20,9 +20,9 @@ from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.branch import FLOOR, Branch
 from linkwright.kinematics.change_points import crossings, mark_singular, signs
 from linkwright.kinematics.cycle import time_span
-from linkwright.kinematics.fold import fold
-from linkwright.kinematics.passing_proof import modal
+from linkwright.kinematics.passing import modal
 from linkwright.kinematics.positions import CycleError, Positions, at_times
+from linkwright.kinematics.rank_of_motion import fold
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism

@@ -13,17 +13,16 @@ from linkwright.core.arrays import Floats, Indices
 from linkwright.core.attached import PlotMixin, attached
 from linkwright.core.outputs import KINDS, NAMED, SLIDE, Output, row_name
 from linkwright.core.read_only import FrozenDict, locked
-from linkwright.errors import RequestError
-from linkwright.kinematics.design import Design
+from linkwright.errors import LinkwrightError, RequestError
+from linkwright.kinematics.dimensions import Design, moving, pace_name
 from linkwright.kinematics.names import point_key
-from linkwright.kinematics.outcome import Outcome, PositionError
 from linkwright.kinematics.positions import Positions
-from linkwright.kinematics.rest import moving, pace_name
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.topology import Structure
 from linkwright.words import _
+from linkwright.words.sentence import in_language
 
 if TYPE_CHECKING:
     import pandas
@@ -424,3 +423,29 @@ def _unwrapped(angle: Floats) -> Floats:
     if len(angle) and angle.max() - angle.min() >= np.pi:
         angle[1:] -= TURN * np.cumsum(np.round(np.diff(angle) / TURN))
     return angle
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Of one position: whether it is solved, and if not, the group that fails and why (in English)."""
+
+    ok: bool
+    sentence: str = _("assembled", code="outcome.assembled")
+    group: str | None = None
+    kind: str = "ok"
+
+    def say(self, language: str = "en") -> str:
+        """The sentence in a language."""
+        return in_language(self.sentence, language)
+
+
+class PositionError(LinkwrightError):
+    """The mechanism cannot be in a position that was asked for.
+
+    ``failed``: indices of the failed positions; ``outcomes``: what became of the first of them.
+    """
+
+    def __init__(self, message: str, failed: tuple[int, ...] = (), outcome: Outcome | None = None) -> None:
+        super().__init__(message)
+        self.failed = failed
+        self.outcome = outcome

@@ -11,12 +11,10 @@ import numpy as np
 from linkwright.core.arrays import Indices
 from linkwright.core.outputs import row_name
 from linkwright.core.quantity import shown
-from linkwright.kinematics.change_point_crossing import ChangePointCrossing
 from linkwright.kinematics.change_points import closes
-from linkwright.kinematics.cycle import FEW, cycle_turns, not_back, together
-from linkwright.kinematics.full_turns import MOST
-from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.outcome import Outcome
+from linkwright.kinematics.cycle import FEW, MOST, cycle_turns, not_back, together
+from linkwright.kinematics.motion import Motion, Outcome
+from linkwright.kinematics.passing import ChangePointCrossing
 from linkwright.kinematics.positions import Positions, coordinate_text
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.units import number

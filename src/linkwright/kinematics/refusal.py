@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.kinematics.input_range import range_sentence
-from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.outcome import Outcome, PositionError
+from linkwright.kinematics.motion import Motion, Outcome, PositionError
 from linkwright.kinematics.reach_messages import input_at, way_stopped
 from linkwright.words import _
 

@@ -12,12 +12,11 @@ from linkwright.core.arguments import STEPS, require
 from linkwright.core.arrays import Floats
 from linkwright.core.inputs import mode_groups
 from linkwright.errors import RequestError
-from linkwright.kinematics.change_point_crossing import ChangePointCrossing
 from linkwright.kinematics.change_points import crossings, cut_off, mark_singular, outputs_at_crossings, signs
 from linkwright.kinematics.cycle import over_cycle, time_span
-from linkwright.kinematics.design import Design
+from linkwright.kinematics.dimensions import Design
 from linkwright.kinematics.motion import Motion, Rows
-from linkwright.kinematics.passing_proof import clear_of_zero
+from linkwright.kinematics.passing import ChangePointCrossing, clear_of_zero
 from linkwright.kinematics.positions import Positions, at_inputs, at_times
 from linkwright.kinematics.reach_messages import branch_notes, passage_notes, turn_notes
 from linkwright.kinematics.solver import MotionSolver

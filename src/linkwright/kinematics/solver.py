@@ -13,11 +13,10 @@ from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.recently_made import Recent
 from linkwright.kinematics.assembly import Assembly, assemble
 from linkwright.kinematics.continuation import BranchTracker
-from linkwright.kinematics.design import Design
-from linkwright.kinematics.outputs import MotionOutputs
+from linkwright.kinematics.dimensions import Design
 from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.programs import AS_IT_IS, Manner, MotionPrograms, motion_programs
-from linkwright.kinematics.trace import MotionTrace
+from linkwright.kinematics.trace import MotionOutputs, MotionTrace
 from linkwright.kinematics.tracked_branch import TrackedBranch, track_branch
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.topology import Structure

@@ -22,12 +22,12 @@ from linkwright.formula.program import Program
 from linkwright.formula.recently_made import Recent
 from linkwright.formula.scalar_backend import ScalarProgram
 from linkwright.formula.trace import Mask, Scalar
-from linkwright.kinematics.angles import geared, turn_state
 from linkwright.kinematics.groups import counted, in_one_step, iterated, state_name, upstream
 from linkwright.kinematics.programs import MotionPrograms
+from linkwright.kinematics.rotations import geared, turn_state
 
 if TYPE_CHECKING:
-    from linkwright.kinematics.design import Design
+    from linkwright.kinematics.dimensions import Design
 
 Evaluate = Callable[[Sequence[float], Sequence[float], Sequence[float]], list[float]]
 

@@ -7,7 +7,7 @@ from linkwright.formula.linear import determinant
 from linkwright.formula.recently_made import Recent
 from linkwright.formula.trace import Scalar, absolute, angle, sqrt
 from linkwright.formula.vector import Vec
-from linkwright.kinematics.outputs import MotionOutputs
+from linkwright.kinematics.trace import MotionOutputs
 from linkwright.kinetostatics.load_site import guide_state
 from linkwright.topology.analysis import Structure
 

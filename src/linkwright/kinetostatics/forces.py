@@ -202,12 +202,10 @@ class Forces(PlotMixin):
         """All results as named columns (n,), names with units."""
         raise NotImplementedError
 
+    @attached
     def to_dataframe(self) -> pandas.DataFrame:
         """All results as a table over the first driver's coordinate, its index; needs pandas."""
-        from linkwright.core.table import dataframe
-        from linkwright.kinematics.table import input_column
-
-        return dataframe(self.columns(), index=input_column(self.motion))
+        raise NotImplementedError
 
     def _reaction(self, joint: str, link: str) -> Floats:
         links = self.motion.design.base.joints[joint].joined

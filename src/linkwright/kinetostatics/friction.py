@@ -14,8 +14,7 @@ from linkwright.core.outputs import RelativeAngle, row_name
 from linkwright.formula.trace import Scalar
 from linkwright.formula.vector import Vec
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.outputs import MotionOutputs
-from linkwright.kinematics.trace import MotionTrace
+from linkwright.kinematics.trace import MotionOutputs, MotionTrace
 from linkwright.kinetostatics.load_site import guide_state
 from linkwright.mechanism.mechanism import Mechanism
 

@@ -8,8 +8,7 @@ from linkwright.applied_loads.strokes import moving_of_turn, share_of, stroke_of
 from linkwright.core.outputs import Output, row_name
 from linkwright.formula.trace import Mask, Scalar, angle, cos, select, sign, sin, sqrt
 from linkwright.formula.vector import Vec
-from linkwright.kinematics.outputs import MotionOutputs
-from linkwright.kinematics.trace import MotionTrace
+from linkwright.kinematics.trace import MotionOutputs, MotionTrace
 from linkwright.mechanism.mechanism import Mechanism
 
 

@@ -17,7 +17,7 @@ from linkwright.words import Message, _
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion, Rows
-    from linkwright.kinematics.outputs import MotionOutputs
+    from linkwright.kinematics.trace import MotionOutputs
     from linkwright.kinetostatics.outputs import ForceOutputs
 
 #: What a balance may be off, as share of the largest force of the machine at that position, and a power, as share of

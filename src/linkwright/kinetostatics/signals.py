@@ -13,8 +13,8 @@ from linkwright.core.arrays import Flags, Floats
 from linkwright.core.outputs import Output, RelativeAngle
 from linkwright.drivers.base import Law
 from linkwright.events.limit_positions import limit_positions
-from linkwright.kinematics.cycle_angles import CycleAngles
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.output_formulas import CycleAngles
 from linkwright.kinematics.positions import Positions
 from linkwright.kinetostatics.friction import moving_rate
 from linkwright.mechanism.mechanism import Mechanism

@@ -18,9 +18,8 @@ from linkwright.formula.linear import product, transposed
 from linkwright.formula.trace import Scalar, absolute
 from linkwright.formula.vector import ZERO, Vec
 from linkwright.joints.pose import Pose
-from linkwright.kinematics.closure import pair_of
 from linkwright.kinematics.equation import Equation
-from linkwright.kinematics.groups import Placed
+from linkwright.kinematics.groups import Placed, pair_of
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.load_site import TracedSite, acts_name
 

@@ -13,8 +13,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.outputs import row_names
 from linkwright.curves.curve import Curve, Extreme, Integral, at_nodes
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.cycle import not_back
-from linkwright.kinematics.full_turns import MOST
+from linkwright.kinematics.cycle import MOST, not_back
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.energy import EnergyFluctuation, of_energy

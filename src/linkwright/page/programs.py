@@ -21,11 +21,11 @@ from linkwright.formula.program import Program
 from linkwright.formula.replay import inlined
 from linkwright.formula.table import Tables
 from linkwright.formula.trace import Mask, Scalar, Trace, select
+from linkwright.kinematics.branch import ROOM
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical, program_names
 from linkwright.kinematics.programs import Manner
 from linkwright.kinematics.solver import MotionSolver
-from linkwright.kinematics.step_rule import ROOM
 from linkwright.kinematics.trace import MotionTrace
 from linkwright.kinetostatics.closure import dyads, transmission
 from linkwright.kinetostatics.forces import Forces

@@ -10,7 +10,7 @@ import linkwright as lw
 from linkwright.designs.failures import ChangePoints, near_enough
 from linkwright.designs.traced_outputs import Traced
 from linkwright.kinematics.cycle import over_cycle
-from linkwright.kinematics.passing_proof import NEAR
+from linkwright.kinematics.passing import NEAR
 
 
 def found(text: str, address: str, values: list[float], steps: int, backend: str = "numpy") -> list[int]:

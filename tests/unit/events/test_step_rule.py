@@ -15,10 +15,10 @@ import linkwright as lw
 from linkwright.events.following import ITERATIONS
 from linkwright.events.path_step import Place
 from linkwright.events.tracked_states import TrackedStates
+from linkwright.kinematics.branch import CORRECTION, LARGEST, MISFIT, ROOM
 from linkwright.kinematics.positions import at_times
 from linkwright.kinematics.programs import Manner
 from linkwright.kinematics.solver import MotionSolver
-from linkwright.kinematics.step_rule import CORRECTION, LARGEST, MISFIT, ROOM
 
 Floats = NDArray[np.float64]
 BEGIN = 0.21

@@ -14,13 +14,12 @@ import linkwright as lw
 from linkwright.analysis import Analysis
 from linkwright.events.path_step import PathStep
 from linkwright.kinematics.between_positions import Between
-from linkwright.kinematics.branch import Branch, Node, _Walk, follow, straight
+from linkwright.kinematics.branch import CORRECTION, MISFIT, Branch, Node, _Walk, follow, straight
 from linkwright.kinematics.continuation import BranchTracker
-from linkwright.kinematics.design import Design
+from linkwright.kinematics.dimensions import Design
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.reach_messages import branch_notes
 from linkwright.kinematics.solver import MotionSolver
-from linkwright.kinematics.step_rule import CORRECTION, MISFIT
 from linkwright.kinematics.tracked_branch import TrackedBranch, _Journey
 from linkwright.kinematics.tracking_formula import Root, TrackedGroups
 

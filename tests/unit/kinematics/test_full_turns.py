@@ -9,7 +9,7 @@ import pytest
 from tests.unit.kinematics.geared_followers import DRAG, FOURBAR, ROCKER, fourbar
 
 import linkwright as lw
-from linkwright.kinematics.full_turns import full_turns
+from linkwright.kinematics.cycle import full_turns
 
 
 def seen(mechanism: lw.Mechanism, most: int) -> int | None:

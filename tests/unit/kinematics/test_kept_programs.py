@@ -10,7 +10,7 @@ from tests.invariants.edited_machines import RUBBING
 import linkwright as lw
 from linkwright.formula.recently_made import Recent
 from linkwright.kinematics import programs
-from linkwright.kinematics.program_shape import shape
+from linkwright.kinematics.programs import shape
 from linkwright.kinetostatics.run import run_forces
 
 pytestmark = pytest.mark.rotating

@@ -14,7 +14,6 @@ from tests.invariants.fourbars import fourbar
 import linkwright as lw
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
-from linkwright.kinematics.change_point_crossing import ChangePointCrossing
 from linkwright.kinematics.change_points import (
     _divided,
     closes,
@@ -28,6 +27,7 @@ from linkwright.kinematics.change_points import (
     way,
 )
 from linkwright.kinematics.cycle import over_cycle
+from linkwright.kinematics.passing import ChangePointCrossing
 from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.reach_messages import passage_notes
 from linkwright.kinematics.solver import MotionSolver

@@ -5,7 +5,7 @@ import random
 import pytest
 
 import linkwright as lw
-from linkwright.kinematics.passing_proof import nothing_passed, plainly_passed
+from linkwright.kinematics.passing import nothing_passed, plainly_passed
 from linkwright.kinematics.solve import try_motion
 from linkwright.kinematics.structure_with_rank import analysed
 from linkwright.mechanism.mechanism import Mechanism

@@ -7,7 +7,7 @@ import pytest
 from tests.failures.limited_machines import fourbar
 
 import linkwright as lw
-from linkwright.kinematics.passing_proof import plainly_passed
+from linkwright.kinematics.passing import plainly_passed
 from linkwright.mechanism.mechanism import Cycle, Mechanism
 
 PASSED = (

@@ -15,7 +15,7 @@ import linkwright as lw
 from linkwright import gallery, words
 from linkwright.cli import main
 from linkwright.groups.base import DYADS
-from linkwright.kinematics.outcome import Outcome
+from linkwright.kinematics.motion import Outcome
 from linkwright.kinematics.rank import rank_from_drawing
 from linkwright.kinematics.rank_of_motion import jacobian_rank, rank_sentence
 from linkwright.words import Message, _

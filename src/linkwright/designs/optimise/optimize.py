@@ -40,7 +40,7 @@ from linkwright.errors import LinkwrightError, ModelError, RequestError
 from linkwright.files.document import Document
 from linkwright.files.model_file import read_document
 from linkwright.files.write import dump
-from linkwright.kinematics.outcome import PositionError
+from linkwright.kinematics.motion import PositionError
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import Message, _

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.table import motion_results
-from linkwright.kinetostatics.table import force_results
+from linkwright.kinetostatics.table import force_results, motion_results
 from linkwright.reports.document import Block, Paragraph
 from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.numbers import without_rounding

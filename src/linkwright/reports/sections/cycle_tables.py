@@ -9,8 +9,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import KINDS, NAMED, RESIDUALS, SLIDE, Output
 from linkwright.errors import LinkwrightError
-from linkwright.kinematics.table import motion_results
-from linkwright.kinetostatics.table import force_results
+from linkwright.kinetostatics.table import force_results, motion_results
 from linkwright.reports.document import Block, Paragraph, Table, literal
 from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.numbers import column, faded, residual, typeset, without_rounding

@@ -1,11 +1,13 @@
-"""A cycle in which nothing is passed: what shows it, and for most machines shows it on plain numbers."""
+"""A cycle in which nothing is passed: what shows it, and where a motion passes a place at which modes meet."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from itertools import chain
 from math import ceil, cos, inf, isfinite, nan, sin, tau
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from linkwright.core.inputs import mode_inputs, turned
 from linkwright.core.outputs import Output, kind_of, row_name
@@ -13,12 +15,12 @@ from linkwright.formula.program import Program
 from linkwright.formula.scalar_backend import ScalarProgram
 from linkwright.kinematics.assembly import assemble
 from linkwright.kinematics.names import program_names
-from linkwright.kinematics.outputs import MotionOutputs
-from linkwright.kinematics.trace import MotionTrace, trace_motion
+from linkwright.kinematics.trace import MotionOutputs, MotionTrace, trace_motion
 from linkwright.topology import Structure
 
 if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism
+
 
 #: Groups whose quality (square of the sine of their transmission angle) stays above this are left alone, unless
 #: it changes more than that from one position to the next.
@@ -131,3 +133,47 @@ def _turned(
         if found[-1][-1] != 0.0:
             return None
     return [list(row) for row in zip(*found, strict=True)][:-1]
+
+
+Kind = Literal["change", "meeting", "end", "gap", "pole"]
+
+
+@dataclass(frozen=True)
+class ChangePointCrossing:
+    """Where a group's modes meet (``change``), its outer pins meet (``meeting``), or it cannot pass: out of reach
+    (``gap``), or infinitely far as its guides become parallel (``pole``). An ``end`` is one of the first two beneath
+    a group without closed form, which cannot be tracked through it.
+
+    It lies at ``share`` of the step from the position ``before`` to the position ``after``, ``at`` the first driver's
+    coordinate (rad or m); ``quality`` is the minimum square of the sine of the group's transmission angle there.
+    ``flips``: the places between which the group has its other sign because of it.
+    """
+
+    group: str
+    before: int
+    after: int
+    share: float
+    quality: float
+    kind: Kind
+    at: float
+    flips: tuple[float, float] = (0.0, math.inf)
+
+    @property
+    def touches(self) -> bool:
+        """Whether the motion passes, with the other sign."""
+        return self.kind in ("change", "meeting")
+
+    @property
+    def barred(self) -> bool:
+        """Whether the group cannot be assembled there, though it can be before and after."""
+        return self.kind in ("gap", "pole")
+
+    @property
+    def singular(self) -> bool:
+        """Whether its modes or its outer pins meet."""
+        return self.touches or self.kind == "end"
+
+    @property
+    def place(self) -> float:
+        """Number of the position, counted on in between."""
+        return self.before + self.share
