@@ -198,7 +198,7 @@ def _drawn(mechanism: Mechanism, group: Group) -> bool:
 
 def _of_cams(mechanism: Mechanism) -> list[Finding]:
     """Cams whose profile could not be made: their follower would cut away what it should touch."""
-    from linkwright.cams.joint import cam_of
+    from linkwright.cams.cam import cam_of
 
     found: list[Finding] = []
     for joint in mechanism.joints.values():

@@ -33,7 +33,7 @@ from linkwright.formula.threads import cores, spread_over
 from linkwright.formula.trace import Scalar, Trace
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.run import solve_forces
-from linkwright.machine.steady_designs import SteadyDesigns
+from linkwright.machine.speeds import SteadyDesigns
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _
 

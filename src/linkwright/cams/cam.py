@@ -1,4 +1,4 @@
-"""A cam as a calculation: its program, follower, sizes and loads, from a file or from code."""
+"""A cam as a calculation, with its program, follower, sizes and loads, from a file, from code or from a mechanism."""
 
 from __future__ import annotations
 
@@ -11,15 +11,19 @@ from typing import Any
 
 import numpy as np
 
-from linkwright.cams.curves import CamCurve
-from linkwright.cams.fields import CamLimits, program_of
-from linkwright.cams.loading import leverage
+from linkwright.cams.curves import CamCurve, undercuts
+from linkwright.cams.follower import Follower
+from linkwright.cams.loading import CamLoading, leverage
 from linkwright.cams.result import CamDesign
-from linkwright.cams.shape import CamShape
+from linkwright.cams.shape import CamLimits, CamShape, program_of
 from linkwright.cams.sizes import chosen
-from linkwright.cams.undercut import undercuts
+from linkwright.core.arrays import Floats
 from linkwright.core.search import first_largest
 from linkwright.errors import Finding, ModelError, fault
+from linkwright.joints.cam import CamJoint
+from linkwright.laws.program import TURN, Program
+from linkwright.laws.traced import LiftCurve
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _
 
 
@@ -234,3 +238,62 @@ class Cam(CamShape):
                 unit=unit,
             )
         ]
+
+
+@dataclass(frozen=True, eq=False)
+class TabledLift(Program):
+    """A lift through the points of a table, as the mechanism runs on it."""
+
+    lift: LiftCurve
+    period: float = TURN
+
+    @property
+    def edges(self) -> Floats:
+        return self.lift.edges
+
+    @property
+    def breaks(self) -> Floats:
+        return self.lift.edges
+
+    def curves(self, x: Any) -> tuple[Any, Any, Any, Any]:
+        s, v, a, j = self.lift.derivatives(x, 3)
+        return s, v, a, j
+
+
+def cam_of(mechanism: Mechanism, name: str, *, speed: float = 0.0) -> Cam:
+    """The cam of a joint, turned so that its follower rises upward (oscillating: so that its pivot is on the x axis).
+
+    ``speed``: size of the cam's angular velocity, rad/s, where it is constant.
+
+    Raises KeyError where there is no such joint, TypeError where it is no cam.
+    """
+    joint = mechanism.joints[name]
+    if not isinstance(joint, CamJoint):
+        raise TypeError(name)
+    geometry = joint.geometry(mechanism)
+    return Cam(
+        program=joint.program or TabledLift(joint.lift),
+        follower=_follower(joint, mechanism)
+        if joint.side
+        else Follower(joint.touch, roller_radius=joint.roller_radius, offset=-geometry.aside),
+        base_radius=joint.base_radius,
+        turn=joint.sense,
+        closure="groove" if joint.closure == "groove" and joint.touch == "roller" else "force",
+        loading=CamLoading(speed=abs(speed)),
+        name=name,
+    )
+
+
+def _follower(joint: CamJoint, mechanism: Mechanism) -> Follower:
+    """A follower that swings: looking from its pivot the left side is below the line to the cam."""
+    carrier, own = mechanism.link(joint.carrier).points, mechanism.link(joint.follower).points
+    line = np.subtract(carrier[joint.centre], carrier[joint.holder])
+    arm = np.subtract(own[joint.at], own[joint.holder])
+    return Follower(
+        joint.touch,
+        "oscillating",
+        roller_radius=joint.roller_radius,
+        pivot_distance=float(np.hypot(*line)),
+        arm=float(np.hypot(*arm)),
+        below=joint.side == "left",
+    )

@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from linkwright.cams.curves import RollerCurve
-from linkwright.cams.loading import contact_pressure, leverage
-from linkwright.cams.vibration import residual_amplitude, steady_deviation
+from linkwright.cams.loading import contact_pressure, leverage, residual_amplitude, steady_deviation
 from linkwright.core.arguments import PROFILE_POINTS
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import attached

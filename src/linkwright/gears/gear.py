@@ -1,8 +1,11 @@
-"""One involute gear: its diameters, tooth thickness, undercut and outline.
+"""One involute gear: its diameters, tooth thickness, undercut and outline; the involute function.
+
+inv α = tan α − α is the angle at the base circle between the start of an involute and its point of the pressure angle
+α, at the radius r = r_b / cos α (DIN 3960; Litvin, Gear Geometry and Applied Theory, chapter 10).
 
 The rack tool rolls with its rolling line on the pitch circle. Its straight flank makes the involute, its rounded tip
 the fillet: where the normal of the tool's contour goes through the pitch point, the tool touches the gear (Litvin,
-Gear Geometry and Applied Theory, chapter 5). A ring has arcs as fillets that touch flank and root circle.
+chapter 5). A ring has arcs as fillets that touch flank and root circle.
 """
 
 from __future__ import annotations
@@ -19,7 +22,6 @@ from linkwright.core.arguments import real
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.search import ends
 from linkwright.errors import RequestError
-from linkwright.gears.involute import involute, involute_at
 from linkwright.words import _
 
 #: Fewest and most teeth, and the range of the pressure angle, rad.
@@ -387,3 +389,32 @@ def ring_space(gear: Gear) -> ToothSpace:
 def _arc(first: float, last: float, points: int) -> Floats:
     """Angles of an arc of a circle, few where it is short."""
     return np.linspace(first, last, max(2, points // 4 + 2)) if last - first > 1e-12 else np.array([first])
+
+
+def involute(angle: float) -> float:
+    """inv α = tan α − α, rad; near zero by its series, where the difference would lose digits."""
+    if abs(angle) < 0.02:
+        square = angle * angle
+        return angle * square * (1.0 / 3.0 + square * (2.0 / 15.0 + square * (17.0 / 315.0)))
+    return math.tan(angle) - angle
+
+
+def angle_of_involute(value: float) -> float:
+    """The pressure angle α in [0, π/2) with inv α = value ≥ 0, by Newton's steps from above; exact to rounding."""
+    if value < 0:
+        raise ValueError(f"an involute function is not negative, and {value} is")
+    if value == 0:
+        return 0.0
+    angle: float = min((3.0 * value) ** (1.0 / 3.0), math.atan(value + 0.5 * math.pi))
+    for _step in range(60):
+        step = (involute(angle) - value) / math.tan(angle) ** 2
+        angle -= step
+        if abs(step) <= 1e-16 * angle:
+            break
+    return angle
+
+
+def involute_at(radii: Floats, base_radius: float) -> Floats:
+    """inv α at radii (n,) not below the base radius, rad."""
+    tangent = np.sqrt(np.maximum((radii / base_radius) ** 2 - 1.0, 0.0))
+    return np.asarray(tangent - np.arctan(tangent))

@@ -14,8 +14,7 @@ from linkwright.core.arguments import require_pair
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import attached
 from linkwright.errors import RequestError
-from linkwright.gears.gear import Gear
-from linkwright.gears.involute import angle_of_involute, involute
+from linkwright.gears.gear import Gear, angle_of_involute, involute
 from linkwright.words import _
 
 if TYPE_CHECKING:

@@ -1,8 +1,5 @@
 from .balancing import Balancing as Balancing
 from .balancing import balance as balance
-from .energy import EnergyFluctuation as EnergyFluctuation
-from .energy import energy_fluctuation as energy_fluctuation
-from .energy import fluctuation_from_areas as fluctuation_from_areas
 from .equivalent import Equivalent as Equivalent
 from .equivalent import equivalent as equivalent
 from .equivalent import equivalent_inertia as equivalent_inertia
@@ -14,10 +11,13 @@ from .flywheel import flywheel_inertia as flywheel_inertia
 from .flywheel import on_faster_shaft as on_faster_shaft
 from .flywheel import rim as rim
 from .flywheel import speed_fluctuation as speed_fluctuation
-from .motor import Motor as Motor
-from .motor import motor as motor
+from .running import Motor as Motor
 from .running import SteadyRunning as SteadyRunning
+from .running import motor as motor
 from .running import steady_running as steady_running
 from .speed import SpeedCurve as SpeedCurve
 from .speed import true_speed as true_speed
+from .torque_curve import EnergyFluctuation as EnergyFluctuation
 from .torque_curve import TorqueCurve as TorqueCurve
+from .torque_curve import energy_fluctuation as energy_fluctuation
+from .torque_curve import fluctuation_from_areas as fluctuation_from_areas

@@ -14,12 +14,10 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.machine import running
 from linkwright.machine.drive_options import DriveOptions
-from linkwright.machine.energy import EnergyFluctuation, energy_fluctuation, fluctuation_from_areas
 from linkwright.machine.flywheel import FLUCTUATION, flywheel_inertia, on_faster_shaft, speed_fluctuation
-from linkwright.machine.motor import motor
-from linkwright.machine.running import placed, share, speeds
+from linkwright.machine.running import motor, placed, share, speeds
 from linkwright.machine.speed import true_speed
-from linkwright.machine.torque_curve import TorqueCurve
+from linkwright.machine.torque_curve import EnergyFluctuation, TorqueCurve, energy_fluctuation, fluctuation_from_areas
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import Message, Translate, _, pgettext
 

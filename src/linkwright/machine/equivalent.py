@@ -16,8 +16,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.kinematics.cycle import MOST, not_back
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
-from linkwright.machine.energy import EnergyFluctuation, of_energy
-from linkwright.machine.torque_curve import TURN, TorqueCurve
+from linkwright.machine.torque_curve import TURN, EnergyFluctuation, TorqueCurve, of_energy
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import Message, _
 

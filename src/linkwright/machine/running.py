@@ -1,4 +1,4 @@
-"""Steady running of a machine: motor, flywheel, and the speed that results."""
+"""Steady running of a machine: motor and its power, flywheel, and the speed that results."""
 
 from __future__ import annotations
 
@@ -18,13 +18,12 @@ from linkwright.core.quantity import shown
 from linkwright.core.rows import Block, Numbers, Row
 from linkwright.core.table import PERCENT
 from linkwright.cycle.summary import Summary
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinetostatics.forces import Forces
-from linkwright.machine.energy import EnergyFluctuation
 from linkwright.machine.equivalent import Equivalent, steady_rate
 from linkwright.machine.flywheel import ZERO_TOLERANCE, flywheel_inertia, on_faster_shaft, speed_fluctuation
-from linkwright.machine.motor import Motor, motor
 from linkwright.machine.speed import SpeedCurve
+from linkwright.machine.torque_curve import EnergyFluctuation
 from linkwright.words import Message, Translate, _
 
 #: What the numbers are, by the keys of their rows.
@@ -239,7 +238,7 @@ def steady_running(
         forces: over a closed cycle of one turning driver of constant speed.
         fluctuation: required coefficient of speed fluctuation δ.
         ratio: speed of the flywheel's shaft over the crank's.
-        efficiency, margin: see :func:`~linkwright.machine.motor.motor`.
+        efficiency, margin: see :func:`~linkwright.machine.running.motor`.
 
     The energy fluctuation is that of the driver torque at constant speed, inertia of the links included.
     Raises LinkwrightError for δ ≤ 0, a mean torque of zero, or a cycle that is not closed.
@@ -284,3 +283,43 @@ def _require_load(mean: float, forces: Forces) -> None:
                 name=forces.mechanism.name,
             )
         )
+
+
+@dataclass(frozen=True)
+class Motor:
+    """``mean_torque`` N·m on the input and ``mean_power`` W there; ``power`` W that the motor must have."""
+
+    mean_torque: float
+    mean_power: float
+    efficiency: float
+    margin: float
+
+    @property
+    def power(self) -> float:
+        """margin · mean power / efficiency, W."""
+        return self.margin * self.mean_power / self.efficiency
+
+
+def motor(mean_torque: float, speed: float, *, efficiency: float = 1.0, margin: float = 1.0) -> Motor:
+    """Motor for a mean torque (N·m) at a speed (rad/s) of the input.
+
+    ``efficiency`` of everything between motor and input, above 0 and up to 1; ``margin`` ≥ 1 on the power.
+    Raises LinkwrightError for values out of range.
+    """
+    if not 0 < real("efficiency", efficiency) <= 1:
+        raise RequestError(
+            _(
+                "the efficiency is {efficiency:g}; give a value above 0 and up to 1",
+                code="running.bad_efficiency",
+                efficiency=efficiency,
+            )
+        )
+    if not real("margin", margin) >= 1:
+        raise RequestError(
+            _(
+                "the margin on the motor's power is {margin:g}; give 1 or more",
+                code="running.bad_margin",
+                margin=margin,
+            )
+        )
+    return Motor(mean_torque, mean_torque * speed, efficiency, margin)

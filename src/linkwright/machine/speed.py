@@ -83,7 +83,7 @@ def true_speed(
     Raises:
         LinkwrightError: torques that do not balance, or a machine that would stop within its cycle.
     """
-    from linkwright.machine.energy import energy_fluctuation
+    from linkwright.machine.torque_curve import energy_fluctuation
 
     if not speed > 0:
         raise LinkwrightError(

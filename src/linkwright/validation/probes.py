@@ -118,15 +118,15 @@ def _attribute(owner: Any, path: str) -> float:
 
 def involute(inputs: Mapping[str, Any]) -> Find:
     """The involute function of an angle."""
-    from linkwright.gears.involute import involute as value
+    from linkwright.gears.gear import involute as value
 
     return lambda what: float(value(parse(what, "angle")))
 
 
 def areas(inputs: Mapping[str, Any]) -> Find:
     """Energy and speed fluctuation of areas of a turning moment diagram."""
-    from linkwright.machine.energy import fluctuation_from_areas
     from linkwright.machine.flywheel import speed_fluctuation
+    from linkwright.machine.torque_curve import fluctuation_from_areas
 
     scale = parse(inputs["angle_scale"], "angle")
     energy = fluctuation_from_areas(inputs["areas"], torque_scale=inputs["torque_scale"], angle_scale=scale).value

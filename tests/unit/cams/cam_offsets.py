@@ -14,9 +14,8 @@ from functools import cached_property
 import numpy as np
 import shapely
 
-from linkwright.cams.curves import CamCurve, FlatCurve, RollerCurve
+from linkwright.cams.curves import CamCurve, FlatCurve, RollerCurve, Undercut, undercuts
 from linkwright.cams.follower import Follower
-from linkwright.cams.undercut import Undercut, undercuts
 from linkwright.laws.program import MotionProgram, Segment
 
 #: Points of the dense polygons; distance (m) from which a contact counts as lost (they are off by up to 2.3e-6).

@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.cams.curves import RollerCurve
+from linkwright.cams.curves import RollerCurve, cusps, undercuts
 from linkwright.cams.loading import CamMaterial, contact_pressure
-from linkwright.cams.undercut import cusps, undercuts
 
 
 def program(rise: float = 0.024, law: str = "cycloidal", beta: float = 90.0) -> lw.MotionProgram:

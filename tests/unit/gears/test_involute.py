@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from linkwright.gears.involute import angle_of_involute, involute
+from linkwright.gears.gear import angle_of_involute, involute
 
 
 @pytest.mark.parametrize("degrees", [14.5, 20.0, 25.0, 26.0886])

@@ -5,8 +5,8 @@ import math
 import pytest
 
 from linkwright import parts
-from linkwright.parts.beams import sections
-from linkwright.parts.beams.beam import SectionStep
+from linkwright.parts.beams import components as sections
+from linkwright.parts.beams.components import SectionStep
 
 E, J, L = 200e9, 3e-6, 3.0
 

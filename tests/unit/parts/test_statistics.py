@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from linkwright.parts.statistics.describe import capability, described, fitted
+from linkwright.parts.statistics.methods import capability, described, fitted
 
 
 def test_description_by_hand() -> None:

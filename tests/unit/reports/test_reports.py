@@ -13,7 +13,7 @@ from tests.every import every
 from tests.refusals import refused
 
 import linkwright as lw
-from linkwright.cams.joint import cam_of
+from linkwright.cams.cam import cam_of
 from linkwright.core.outputs import Output
 from linkwright.equations.latex import latex
 from linkwright.errors import LinkwrightError, speaker

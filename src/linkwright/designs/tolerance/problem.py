@@ -18,8 +18,7 @@ from linkwright.fields.base import Quantity, Text, Word, file_key
 from linkwright.fields.tables import ByAddress, Either, Integer, Listed, Named, Table
 from linkwright.mechanism.link import Link
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.parts.fields import AnyQuantity
-from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
+from linkwright.parts.fields import MECHANISM, AnyQuantity, OfMechanism
 from linkwright.units import si_unit
 from linkwright.words import _
 

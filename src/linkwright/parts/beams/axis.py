@@ -1,4 +1,4 @@
-"""The axis of a link, straight or with corners, and the link's mass spread along it."""
+"""The axis of a link, straight or with corners; the link's mass along it, and the forces at its points."""
 
 from __future__ import annotations
 
@@ -12,6 +12,8 @@ from numpy.polynomial import Polynomial, legendre
 
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.plane import cross
+from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.link_balance import applied_rows, driver_wrenches
 from linkwright.mechanism.link import Link
 
 #: Stations between two corners.
@@ -165,3 +167,83 @@ class SpreadMass:
         )
         m0, m1, m2 = (np.concatenate([np.zeros_like(part[:1]), np.cumsum(part, axis=0)]) for part in parts)
         return m0, m1, m2
+
+
+@dataclass(frozen=True)
+class PointForce:
+    """What acts at a point of a link: ``place`` s (n,) m, ``force`` (n, 2) N and ``point`` (n, 2) m in the link's
+    axes, ``couple`` (n,) N·m."""
+
+    name: str
+    place: Floats
+    force: Floats
+    point: Floats
+    couple: Floats
+
+
+@dataclass(frozen=True)
+class LinkForces:
+    """All that acts on the link ``name`` at points, in the axes of the link; places along its ``axis``."""
+
+    forces: Forces
+    name: str
+    axis: LinkAxis
+
+    @property
+    def link(self) -> Link:
+        """The link."""
+        return self.forces.motion.mechanism.links[self.name]
+
+    def at_points(self) -> list[PointForce]:
+        """All that acts at points."""
+        return [*self._joint_forces(), *self._driver_forces(), *self._load_forces()]
+
+    def turned(self, vectors: Floats) -> Floats:
+        """Vectors (n, 2) of the frame in the axes of the link."""
+        e = self.forces.motion.link(self.name).direction
+        x, y = vectors[:, 0], vectors[:, 1]
+        return np.stack([x * e[:, 0] + y * e[:, 1], y * e[:, 0] - x * e[:, 1]], axis=1)
+
+    def _local(self, places: Floats) -> Floats:
+        """Places (n, 2) of the frame in the axes of the link."""
+        first, own = next(iter(self.link.points.items()))
+        origin = self.forces.motion.point(f"{self.name}.{first}").position
+        return self.turned(places - origin) + own
+
+    def _seat(self, joint: str) -> Floats:
+        """Where a joint's force acts, (n, 2) in the link's axes: the block's point where the link is the guide."""
+        own = self.forces.motion.mechanism.joints[joint]
+        if own.couples or own.higher:
+            return self._local(self.forces.motion.reaction_place(joint))
+        return np.tile(self.link.points[own.point_on(self.name)], (self.forces.steps, 1))
+
+    def _joint_forces(self) -> list[PointForce]:
+        found, name = [], self.name
+        for joint, own in self.forces.motion.mechanism.joints.items():
+            if name in own.joined:
+                force, seat = self.turned(self.forces.reaction(joint, on=name)), self._seat(joint)
+                couple = self.forces.couple(joint, on=name)
+                found.append(PointForce(joint, self.axis.nearest(seat)[0], force, seat, couple))
+        return found
+
+    def _driver_forces(self) -> list[PointForce]:
+        found = []
+        for name, force, couple in driver_wrenches(self.forces, self.name):
+            seat = self._seat(self.forces.motion.mechanism.drivers[name].joint)
+            found.append(PointForce(name, self.axis.nearest(seat)[0], self.turned(force), seat, couple))
+        return found
+
+    def _load_forces(self) -> list[PointForce]:
+        """The resultant of all loads on the link, where it meets the axis; a couple where it passes by."""
+        link = self.name
+        fx, fy, moment = self.forces.fetch(applied_rows(link))
+        if not (np.any(fx) or np.any(fy) or np.any(moment)):
+            return []
+        force = np.stack([fx, fy], axis=1)
+        first, own = next(iter(self.link.points.items()))
+        origin = self.forces.motion.point(f"{link}.{first}").position
+        turned = self.turned(force)
+        about = moment - cross(origin, force) + cross(np.array(own, dtype=float), turned)
+        place, couple = self.axis.crossed(turned, about)
+        piece = np.clip(np.searchsorted(self.axis.places, place, side="right") - 1, 0, len(self.axis.tangents) - 1)
+        return [PointForce("loads", place, turned, self.axis.at(place, piece), couple)]

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,25 +17,34 @@ from linkwright.core.rows import Block, Row
 from linkwright.core.search import first_largest
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, fault
-from linkwright.fields.base import Quantities, Quantity, Schema, Word, file_key, quantity_schema
+from linkwright.fields.base import Quantities, Quantity, file_key
 from linkwright.fields.tables import Flag, Listed, Named, Table
 from linkwright.parts.base import Problem, Result, signed
-from linkwright.parts.beams.balance import balance_laws, line_moment, polynomial_text, rounded
+from linkwright.parts.beams.components import (
+    MATERIAL,
+    BeamLoad,
+    BeamSupport,
+    Material,
+    Section,
+    SectionStep,
+    section_field,
+)
 from linkwright.parts.beams.elastic import (
     DistributedLoad,
     ElasticLine,
     Point,
     SupportCondition,
+    balance_laws,
     free_motions,
+    line_moment,
+    polynomial_text,
+    rounded,
     solve_line,
 )
-from linkwright.parts.beams.materials import MATERIAL, Material
-from linkwright.parts.beams.sections import Section, section_field
-from linkwright.parts.motions import plain_motions
+from linkwright.parts.statics.body import plain_motions
 from linkwright.units import GRAVITY
 from linkwright.words import Message, Translate, _
 
-SUPPORTS = ("fixed", "pinned", "roller", "guided", "spring")
 QUANTITIES = ("shear", "moment", "slope", "deflection")
 DIMENSIONS = {"shear": "force", "moment": "torque", "slope": "slope", "deflection": "length"}
 #: What the numbers are called.
@@ -52,84 +61,6 @@ QUANTITY_NAMES = {
     "deflection": _("deflection w"),
 }
 EXTREMES = {"least": _("least"), "largest": _("largest")}
-
-
-@dataclass(frozen=True)
-class BeamSupport:
-    """``kind``: fixed, pinned or roller (equal in bending), guided (slope held), spring; ``at`` m.
-
-    ``settlement``: given deflection, m; ``stiffness`` N/m and ``torsional_stiffness`` N·m/rad of a spring.
-    """
-
-    kind: str = file_key(Word(SUPPORTS, doc=", ".join(SUPPORTS)))
-    at: float = file_key(Quantity("length", minimum=0.0, doc="its place"))
-    settlement: float = file_key(Quantity("length", doc="given deflection, upwards positive"), 0.0)
-    stiffness: float = file_key(Quantity("stiffness", minimum=0.0, doc="of a spring"), 0.0)
-    torsional_stiffness: float = file_key(Quantity("torsional_stiffness", minimum=0.0, doc="of a spring"), 0.0)
-
-    @property
-    def hold(self) -> SupportCondition:
-        """What it holds."""
-        return SupportCondition(
-            self.at,
-            self.kind in ("fixed", "pinned", "roller"),
-            self.kind in ("fixed", "guided"),
-            self.settlement,
-            self.stiffness,
-            self.torsional_stiffness,
-        )
-
-
-@dataclass(frozen=True)
-class LineLoad(Quantities):
-    """One value, or ``[first, last]``."""
-
-    def read(self, reader: Any, node: Any, place: Any, siblings: Mapping[str, Any]) -> tuple[float, ...] | None:
-        from linkwright.fields.nodes import Sequence as SequenceNode
-
-        if isinstance(node, SequenceNode):
-            return super().read(reader, node, place, siblings)
-        value = reader.quantity(node, place, self.dimension)
-        return None if value is None else (value, value)
-
-    def shape(self) -> Schema:
-        return {"anyOf": [quantity_schema(self.dimension), super().shape()]}
-
-
-@dataclass(frozen=True)
-class BeamLoad:
-    """One of: ``force`` (N, up) ``at`` a place, ``couple`` (N·m, counter-clockwise) ``at`` a place, ``line`` load.
-
-    A line load (N/m, up) lies from ``start`` to ``end``, to the beam's end unless given, constant or from its first
-    to its last value.
-    """
-
-    force: float | None = file_key(Quantity("force", doc="force, upwards positive, with at"), None)
-    couple: float | None = file_key(Quantity("torque", doc="couple, counter-clockwise positive, with at"), None)
-    line: tuple[float, ...] | None = file_key(
-        LineLoad(
-            "line_load",
-            count=2,
-            form="[0 N/m, -2 kN/m]",
-            doc="line load, upwards positive; [first, last] where it varies",
-        ),
-        None,
-    )
-    at: float | None = file_key(Quantity("length", minimum=0.0, doc="where the force or couple acts"), None)
-    start: float = file_key(
-        Quantity("length", minimum=0.0, key="from", doc="where the line load begins; default: 0"), 0.0
-    )
-    end: float | None = file_key(
-        Quantity("length", minimum=0.0, key="to", doc="where it ends; default: the beam's end"), None
-    )
-
-
-@dataclass(frozen=True)
-class SectionStep:
-    """From ``start`` on (m) the beam has another ``section``."""
-
-    start: float = file_key(Quantity("length", above=0.0, key="from", doc="from here on"))
-    section: Section = file_key(section_field())
 
 
 @dataclass(frozen=True)

@@ -22,17 +22,15 @@ from linkwright.fields.base import Quantity, Text, file_key
 from linkwright.fields.tables import Integer, Listed
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
-from linkwright.kinetostatics.link_balance import applied_rows, driver_wrenches
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.kinetostatics.self_check import LIMIT
 from linkwright.mechanism.link import Link
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Result
-from linkwright.parts.beams.axis import LinkAxis, SpreadMass
-from linkwright.parts.beams.balance import polynomial_text
-from linkwright.parts.beams.materials import MATERIAL, Material
-from linkwright.parts.beams.sections import Section, require_modulus, section_field
-from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
+from linkwright.parts.beams.axis import LinkAxis, LinkForces, PointForce, SpreadMass
+from linkwright.parts.beams.components import MATERIAL, Material, Section, require_modulus, section_field
+from linkwright.parts.beams.elastic import polynomial_text
+from linkwright.parts.fields import MECHANISM, OfMechanism
 from linkwright.words import Message, Translate, _
 
 #: Points of a link lie on a line within this share of its length.
@@ -175,18 +173,6 @@ class LinkBending(OfMechanism):
         return LinkStress(self, forces)
 
 
-@dataclass(frozen=True)
-class PointForce:
-    """What acts at a point of a link: ``place`` s (n,) m, ``force`` (n, 2) N and ``point`` (n, 2) m in the link's
-    axes, ``couple`` (n,) N·m."""
-
-    name: str
-    place: Floats
-    force: Floats
-    point: Floats
-    couple: Floats
-
-
 def _summed(steps: Floats) -> Floats:
     """Sums from zero on along the second axis."""
     return np.concatenate([np.zeros_like(steps[:, :1]), np.cumsum(steps, axis=1)], axis=1)
@@ -225,6 +211,16 @@ class LinkStress(Result):
         return SpreadMass(self.axis, self.link)
 
     @cached_property
+    def acting(self) -> LinkForces:
+        """What acts on the link."""
+        return LinkForces(self.forces, self.problem.link, self.axis)
+
+    @cached_property
+    def point_forces(self) -> list[PointForce]:
+        """All that acts at points."""
+        return self.acting.at_points()
+
+    @cached_property
     def _laid_out(self) -> tuple[Floats, Indices]:
         return self.axis.stations([float(s) for s in self.axis.nearest(np.array(list(self.link.points.values())))[0]])
 
@@ -240,68 +236,13 @@ class LinkStress(Result):
         along = self.axis.tangents[piece]
         return self.axis.at(s, piece), along, np.stack([-along[:, 1], along[:, 0]], axis=1)
 
-    def _turned(self, vectors: Floats) -> Floats:
-        """Vectors (n, 2) of the frame in the axes of the link."""
-        e = self.forces.motion.link(self.problem.link).direction
-        x, y = vectors[:, 0], vectors[:, 1]
-        return np.stack([x * e[:, 0] + y * e[:, 1], y * e[:, 0] - x * e[:, 1]], axis=1)
-
-    def _local(self, places: Floats) -> Floats:
-        """Places (n, 2) of the frame in the axes of the link."""
-        first, own = next(iter(self.link.points.items()))
-        origin = self.forces.motion.point(f"{self.problem.link}.{first}").position
-        return self._turned(places - origin) + own
-
-    @cached_property
-    def point_forces(self) -> list[PointForce]:
-        """All that acts at points."""
-        return [*self._joint_forces(), *self._driver_forces(), *self._load_forces()]
-
-    def _seat(self, joint: str) -> Floats:
-        """Where a joint's force acts, (n, 2) in the link's axes: the block's point where the link is the guide."""
-        own = self.problem.mechanism.joints[joint]
-        if own.couples or own.higher:
-            return self._local(self.forces.motion.reaction_place(joint))
-        return np.tile(self.link.points[own.point_on(self.problem.link)], (self.forces.steps, 1))
-
-    def _joint_forces(self) -> list[PointForce]:
-        found, name = [], self.problem.link
-        for joint, own in self.problem.mechanism.joints.items():
-            if name in own.joined:
-                force, seat = self._turned(self.forces.reaction(joint, on=name)), self._seat(joint)
-                couple = self.forces.couple(joint, on=name)
-                found.append(PointForce(joint, self.axis.nearest(seat)[0], force, seat, couple))
-        return found
-
-    def _driver_forces(self) -> list[PointForce]:
-        found = []
-        for name, force, couple in driver_wrenches(self.forces, self.problem.link):
-            seat = self._seat(self.problem.mechanism.drivers[name].joint)
-            found.append(PointForce(name, self.axis.nearest(seat)[0], self._turned(force), seat, couple))
-        return found
-
-    def _load_forces(self) -> list[PointForce]:
-        """The resultant of all loads on the link, where it meets the axis; a couple where it passes by."""
-        link = self.problem.link
-        fx, fy, moment = self.forces.fetch(applied_rows(link))
-        if not (np.any(fx) or np.any(fy) or np.any(moment)):
-            return []
-        force = np.stack([fx, fy], axis=1)
-        first, own = next(iter(self.link.points.items()))
-        origin = self.forces.motion.point(f"{link}.{first}").position
-        turned = self._turned(force)
-        about = moment - cross(origin, force) + cross(np.array(own, dtype=float), turned)
-        place, couple = self.axis.crossed(turned, about)
-        piece = np.clip(np.searchsorted(self.axis.places, place, side="right") - 1, 0, len(self.axis.tangents) - 1)
-        return [PointForce("loads", place, turned, self.axis.at(place, piece), couple)]
-
     @cached_property
     def _cut(self) -> tuple[Floats, Floats, Floats]:
         """Shear, moment, normal (n, k): sums of all that acts below every station."""
         motion, (points, along, across) = self.forces.motion.link(self.problem.link), self._ways
         still = np.zeros((self.forces.steps, 2))
         acceleration = motion.centre.acceleration if self.link.mass else still
-        pull = self._turned(np.asarray(self.problem.mechanism.gravity) - acceleration)
+        pull = self.acting.turned(np.asarray(self.problem.mechanism.gravity) - acceleration)
         alpha, swing = motion.angular_acceleration[:, None], motion.angular_velocity[:, None] ** 2
         m0, m1, m2 = self.mass.below(*self._laid_out)
         turned = np.stack([-m1[:, 1], m1[:, 0]], axis=1)

@@ -19,25 +19,33 @@ from linkwright.core.table import in_si, unused
 from linkwright.equations.notation import Atom, row, sign, upright
 from linkwright.equations.reading import filled, measured, of_file, plain, sides
 from linkwright.equations.steps import Step, Written
-from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError, fault
-from linkwright.fields.base import Field, file_key
-from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Node, Scalar
-from linkwright.fields.reading import Place, Reader
-from linkwright.fields.tables import Flag, Listed, Named, Table
+from linkwright.errors import Finding, LinkwrightError, ModelError, fault
+from linkwright.fields.base import file_key
+from linkwright.fields.tables import Named
 from linkwright.parts.base import Problem, Result
-from linkwright.parts.fields import AnyQuantity
-from linkwright.parts.programs.formula import Constraint, Formula, constraint, formula
-from linkwright.parts.programs.linear import conflict, feasible, runaway, solve_linear
-from linkwright.parts.programs.nonlinear import (
+from linkwright.parts.programs.problem import (
+    VARIABLE,
+    Conditions,
+    Constraint,
+    Formula,
+    Model,
+    Objective,
+    Variable,
+    constraint,
+    formula,
+)
+from linkwright.parts.programs.solvers import (
     ENUMERATED,
     branch,
     combinations,
+    conflict,
     enumerate_all,
+    feasible,
     multipliers,
+    runaway,
+    solve_linear,
     solve_nonlinear,
 )
-from linkwright.parts.programs.problem import Model, Variable
 from linkwright.words import Translate, _
 
 #: A constraint is active within this share of the size of its sides.
@@ -63,70 +71,6 @@ UNBOUNDED = _("no limit: the objective improves without end along {variables}")
 STOPS_THEM = _("give these variables bounds, or a constraint that stops them")
 
 
-def _variable(**values: Any) -> Variable:
-    ends = {name: values[name][0] for name in ("low", "high", "start") if values.get(name)}
-    choices = tuple(sorted(value for value, _unused in values.get("choices", ())))
-    kinds = [values[name][1] for name in ("low", "high", "start") if values.get(name) and values[name][0]]
-    kinds += [kind for _unused, kind in values.get("choices", ())]
-    kinds = [kind for kind in kinds if kind != units.NONE] or [units.NONE]
-    return Variable(**ends, integer=bool(values.get("integer")), choices=choices, dimension=kinds[0])
-
-
-VARIABLE = {
-    "low": AnyQuantity(key="from", doc="lower bound; default: none"),
-    "high": AnyQuantity(key="to", doc="upper bound; default: none"),
-    "integer": Flag(doc="true: integers only"),
-    "choices": Listed(AnyQuantity(), "[1 mm, 1.25 mm]", doc="the values that it may take"),
-    "start": AnyQuantity(doc="where a search begins"),
-}
-
-
-@dataclass(frozen=True)
-class Objective(Field):
-    """An expression of the variables and parameters."""
-
-    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Formula | None:
-        text, variables = reader.text(node, place), siblings.get("variables")
-        if text is None or variables is None:
-            return None
-        try:
-            return formula(text, _kinds(reader, variables), reader.values)
-        except QuantityError as error:
-            reader.quantity_error(error, node, place, text)
-            return None
-
-    def shape(self) -> dict[str, Any]:
-        return {"type": "string"}
-
-
-@dataclass(frozen=True)
-class Conditions(Field):
-    """Constraints by name: ``left <= right``, ``left >= right``, ``left = right``, ``low <= expression <= high``."""
-
-    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
-        mapping, variables = reader.mapping(node, place), siblings.get("variables")
-        found: list[Constraint] = []
-        for entry in mapping.entries if isinstance(mapping, MappingNode) and variables is not None else []:
-            child = place.child(entry.key.text)
-            text = entry.value.text if isinstance(entry.value, Scalar) else reader.text(entry.value, child)
-            try:
-                kinds = _kinds(reader, variables or {})
-                found += constraint(entry.key.text, text or "", kinds, reader.values)
-            except QuantityError as error:
-                if not reader.follows(text or ""):
-                    reader.error(entry.value, child, error.message, error.remedy, error.code)
-        return tuple(found)
-
-    def shape(self) -> dict[str, Any]:
-        return {"type": "object", "additionalProperties": {"type": "string"}}
-
-
-def _kinds(reader: Reader, variables: Mapping[str, Variable | None]) -> dict[str, units.Dimension]:
-    """Dimensions of parameters and variables; variables that are wrong themselves are noted as such."""
-    reader.broken.update(name for name, each in variables.items() if each is None)
-    return {**reader.kinds, **{name: each.dimension for name, each in variables.items() if each is not None}}
-
-
 @dataclass(frozen=True)
 class Program(Problem):
     """``minimize`` or ``maximize`` a formula of ``variables`` subject to constraints; :meth:`of` reads texts."""
@@ -134,7 +78,7 @@ class Program(Problem):
     kind: ClassVar[str] = "program"
     variables: Mapping[str, Variable] = file_key(
         Named(
-            Table(VARIABLE, _variable),
+            VARIABLE,
             _("variable"),
             doc="variables by name: {from: 0 mm, to: 40 mm}, with integer: true or choices: […]",
         )

@@ -22,7 +22,6 @@ from linkwright.fields.nodes import Sequence as SequenceNode
 from linkwright.fields.reading import Place, Reader
 from linkwright.fields.tables import Listed, Named, Table
 from linkwright.parts.base import Problem, Result
-from linkwright.parts.motions import plain_motions
 from linkwright.parts.statics.forces import COUPLES, DIRECTION, FORCES, Components, Force, ForceField, spatial
 from linkwright.words import Message, Translate, _
 
@@ -342,3 +341,22 @@ def _sums(body: RigidBody) -> tuple[str, ...]:
 
 def _dimension(name: str) -> str:
     return "torque" if ".M" in name else "force"
+
+
+def plain_motions(space: Floats) -> list[Floats]:
+    """A basis of the rows' space with as many zeros as can be, by elimination from the last column on."""
+    rows = space.copy()
+    done = 0
+    for column in range(rows.shape[1] - 1, -1, -1):
+        if done == len(rows):
+            break
+        pivot = done + int(np.abs(rows[done:, column]).argmax())
+        if abs(rows[pivot, column]) < 1e-8:
+            continue
+        rows[[done, pivot]] = rows[[pivot, done]]
+        rows[done] /= rows[done, column]
+        for other in range(len(rows)):
+            if other != done:
+                rows[other] -= rows[other, column] * rows[done]
+        done += 1
+    return [np.where(np.abs(row) < 1e-9, 0.0, row) for row in rows]

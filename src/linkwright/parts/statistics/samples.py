@@ -6,9 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar
-
-import numpy as np
+from typing import ClassVar
 
 from linkwright import units
 from linkwright.core.arrays import Floats
@@ -18,32 +16,40 @@ from linkwright.core.table import PARTS_PER_MILLION, Scale, in_si
 from linkwright.equations.reading import measured
 from linkwright.equations.steps import Step, Value
 from linkwright.errors import Finding, fault
-from linkwright.fields.base import Quantity, Text, Word, file_key
-from linkwright.fields.tables import Integer, Listed, Named, Table
+from linkwright.fields.base import Quantity, Word, file_key
+from linkwright.fields.tables import Listed, Named, Table
 from linkwright.parts.base import Problem, Result
-from linkwright.parts.fields import AnyQuantity, Numbers, Sample
-from linkwright.parts.statistics.describe import (
+from linkwright.parts.fields import Numbers, Sample
+from linkwright.parts.statistics.methods import (
     DISTRIBUTIONS,
     POSITIVE,
+    TESTS,
     Capability,
     Description,
     Fit,
+    Outcome,
     Regression,
     capability,
     described,
     deviation_interval,
     fitted,
     mean_interval,
-    regression,
 )
-from linkwright.parts.statistics.hypotheses import AGAINST, TESTS, TOGETHER, Outcome
+from linkwright.parts.statistics.specs import (
+    FIT_MINIMUM,
+    LIMITS,
+    TEST,
+    Fitting,
+    Limits,
+    TestSpec,
+    too_small,
+    values_of,
+)
 from linkwright.words import Message, Translate, _, language_of, pgettext
 from linkwright.words.sentence import in_language
 
 #: A probability below this one counts as zero.
 TINY = 1e-12
-#: Values that a fitted distribution needs at least.
-FIT_MINIMUM = 8
 #: What the numbers are called.
 LABELS: Mapping[str, Message] = {
     "count": _("number n"),
@@ -82,64 +88,6 @@ HYPOTHESES = {
 }
 
 
-_NOT_PAIRED = _("the samples belong together value by value, but have different numbers ({counts})")
-
-
-_TOO_FEW = _("the sample {sample} has {count} value(s), too few for {what}")
-
-
-_CONSTANT = _("all values of {sample} are equal, so {what} has no answer")
-
-
-@dataclass(frozen=True)
-class TestSpec:
-    """A test of ``kind`` ``of`` samples; ``value`` (SI) that the mean or deviation is compared with."""
-
-    kind: str
-    of: tuple[str, ...]
-    value: float | None = None
-    dimension: units.Dimension | None = None
-
-
-@dataclass(frozen=True)
-class Fitting:
-    """The sample ``y`` as a polynomial of ``degree`` of one sample ``on``, or linear in several."""
-
-    y: str = file_key(Text(doc="the sample that is explained"))
-    on: tuple[str, ...] = file_key(Listed(Text(), "[x]", doc="the samples that explain it"))
-    degree: int = file_key(Integer(1, doc="degree of the polynomial of one sample; default: 1"), 1)
-
-
-@dataclass(frozen=True)
-class Limits:
-    """``lower`` and ``upper`` limit (SI) of a sample; ``subgroup``: size of successive subgroups."""
-
-    lower: float | None = None
-    upper: float | None = None
-    subgroup: int | None = None
-
-
-def _asked(kind: str, of: tuple[str, ...], value: Any = None) -> TestSpec:
-    return TestSpec(kind, of, *(value or ()))
-
-
-def _limits(lower: Any = None, upper: Any = None, subgroup: int | None = None) -> Limits:
-    return Limits(lower and lower[0], upper and upper[0], subgroup)
-
-
-OF = Listed(Text(), "[a, b]", required=True, doc="names of the samples")
-TEST_FIELDS = {
-    "kind": Word(tuple(TESTS), required=True, doc=", ".join(TESTS)),
-    "of": OF,
-    "value": AnyQuantity(doc="mean, or standard deviation, that is compared with"),
-}
-LIMIT_FIELDS = {
-    "lower": AnyQuantity(doc="lower limit"),
-    "upper": AnyQuantity(doc="upper limit"),
-    "subgroup": Integer(2, doc="size of successive subgroups, for the deviation within them"),
-}
-
-
 @dataclass(frozen=True)
 class Samples(Problem):
     """Samples by name (SI with the unit in which they were given) and what is asked about them."""
@@ -155,25 +103,20 @@ class Samples(Problem):
         Listed(Word(tuple(DISTRIBUTIONS)), "[normal, weibull]", doc=f"any of {', '.join(DISTRIBUTIONS)}"), ()
     )
     tests: Mapping[str, TestSpec] = file_key(
-        Named(Table(TEST_FIELDS, _asked), _("test"), doc="tests by name: {kind: mean, of: [a], value: 20 mm}"), dict
+        Named(TEST, _("test"), doc="tests by name: {kind: mean, of: [a], value: 20 mm}"), dict
     )
     regressions: Mapping[str, Fitting] = file_key(
         Named(Table.of(Fitting), _("regression"), doc="regressions by name: {y: force, on: [speed], degree: 2}"), dict
     )
     capability: Mapping[str, Limits] = file_key(
-        Named(
-            Table(LIMIT_FIELDS, _limits),
-            _("sample"),
-            doc="limits by sample: {lower: 19.9 mm, upper: 20.1 mm, subgroup: 5}",
-        ),
-        dict,
+        Named(LIMITS, _("sample"), doc="limits by sample: {lower: 19.9 mm, upper: 20.1 mm, subgroup: 5}"), dict
     )
     name: str = ""
     source: str = ""
 
     def values(self, name: str) -> Floats:
         """A sample, SI."""
-        return np.array(self.samples[name].values)
+        return values_of(self.samples, name)
 
     def findings(self) -> list[Finding]:
         found = [
@@ -186,198 +129,17 @@ class Samples(Problem):
                 fault("confidence", "confidence", _("a confidence must lie between 0 and 1"), _("write 0.95"))
             )
         for name, test in self.tests.items():
-            found += self._test_findings(f"tests.{name}", test)
+            found += test.findings(f"tests.{name}", self.samples)
         for name, fitting in self.regressions.items():
-            found += self._regression_findings(f"regressions.{name}", fitting)
+            found += fitting.findings(f"regressions.{name}", self.samples)
         for name, limits in self.capability.items():
-            found += self._limit_findings(f"capability.{name}", name, limits)
+            found += limits.findings(f"capability.{name}", name, self.samples)
         for word in self.fit:
             found += self._fit_findings(word)
         return found
 
-    def _unknown(self, key: str, names: tuple[str, ...]) -> list[Finding]:
-        return [
-            fault(
-                "no_sample",
-                key,
-                _('there is no sample "{name}"'),
-                _("one of: {known}"),
-                name=name,
-                known=tuple(self.samples),
-            )
-            for name in names
-            if name not in self.samples
-        ]
-
-    def _small(self, key: str, names: tuple[str, ...], what: str, minimum: int) -> list[Finding]:
-        """A finding for every sample that is too small, or that does not vary."""
-        found = []
-        for name in names:
-            values = self.values(name)
-            if len(values) < minimum:
-                found.append(
-                    fault(
-                        "too_small",
-                        key,
-                        _TOO_FEW,
-                        _("give at least {minimum}"),
-                        sample=name,
-                        count=len(values),
-                        what=what,
-                        minimum=minimum,
-                    )
-                )
-            elif np.ptp(values) == 0.0:
-                found.append(
-                    fault("constant", key, _CONSTANT, _("measure finer, or leave it out"), sample=name, what=what)
-                )
-        return found
-
-    def _test_findings(self, key: str, test: TestSpec) -> list[Finding]:
-        kind = TESTS[test.kind]
-        found = self._unknown(f"{key}.of", test.of)
-        wanted = kind.samples or 2
-        if len(test.of) != wanted if kind.samples else len(test.of) < 2:
-            found.append(
-                fault(
-                    "sample_count",
-                    f"{key}.of",
-                    _("{what} needs {wanted} sample(s); {count} are named"),
-                    _("name as many under of"),
-                    what=test.kind,
-                    wanted=wanted,
-                    count=len(test.of),
-                )
-            )
-        if (test.kind in AGAINST) != (test.value is not None):
-            found.append(
-                fault(
-                    "value_needed",
-                    key,
-                    _("{what} needs a value to compare with"),
-                    _("give value: such as 20 mm"),
-                    what=test.kind,
-                )
-                if test.kind in AGAINST
-                else fault(
-                    "value_useless", key, _("{what} compares with no value"), _("leave value out"), what=test.kind
-                )
-            )
-        if found:
-            return found
-        found = self._small(key, test.of, test.kind, kind.min_values)
-        kinds = {self.samples[n].dimension for n in test.of} | ({test.dimension} if test.dimension else set())
-        if test.kind != "correlation" and len(kinds) > 1:
-            found.append(
-                fault(
-                    "kinds_differ",
-                    key,
-                    _("lengths cannot be compared with forces: the samples or the value differ in kind"),
-                    _("compare values of one kind"),
-                )
-            )
-        if test.kind in TOGETHER and len({len(self.values(n)) for n in test.of}) > 1:
-            found.append(
-                fault(
-                    "not_paired",
-                    key,
-                    _NOT_PAIRED,
-                    _("give as many values in each"),
-                    counts=" : ".join(str(len(self.values(n))) for n in test.of),
-                )
-            )
-        if test.kind == "variance" and test.value is not None and test.value <= 0:
-            found.append(
-                fault(
-                    "deviation_above_zero",
-                    f"{key}.value",
-                    _("the standard deviation to compare with must be above zero"),
-                    _("give a value above zero"),
-                )
-            )
-        if test.kind == "paired" and not found and np.ptp(self.values(test.of[0]) - self.values(test.of[1])) == 0.0:
-            found.append(
-                fault(
-                    "constant",
-                    key,
-                    _CONSTANT,
-                    _("measure finer, or leave it out"),
-                    sample=f"{test.of[0]} − {test.of[1]}",
-                    what=test.kind,
-                )
-            )
-        return found
-
-    def _regression_findings(self, key: str, fitting: Fitting) -> list[Finding]:
-        found = self._unknown(key, (fitting.y, *fitting.on))
-        if found:
-            return found
-        if fitting.degree > 1 and len(fitting.on) > 1:
-            return [
-                fault(
-                    "degree_of_one",
-                    f"{key}.degree",
-                    _("a degree above 1 is for one explaining sample"),
-                    _("name one sample under on, or leave degree out"),
-                )
-            ]
-        counts = {len(self.values(n)) for n in (fitting.y, *fitting.on)}
-        if len(counts) > 1:
-            return [
-                fault(
-                    "not_paired",
-                    key,
-                    _NOT_PAIRED,
-                    _("give as many values in each"),
-                    counts=" : ".join(map(str, sorted(counts))),
-                )
-            ]
-        minimum = len(self.columns_of(fitting)[1]) + 1
-        if min(counts) < minimum:
-            return [
-                fault(
-                    "too_small",
-                    key,
-                    _TOO_FEW,
-                    _("give at least {minimum}"),
-                    sample=fitting.y,
-                    count=min(counts),
-                    what="regression",
-                    minimum=minimum,
-                )
-            ]
-        return (
-            []
-            if self.regress(fitting)
-            else [
-                fault(
-                    "dependent",
-                    f"{key}.on",
-                    _("the explaining samples depend on each other or do not vary"),
-                    pgettext("statistics", "leave one of them out"),
-                )
-            ]
-        )
-
-    def _limit_findings(self, key: str, name: str, limits: Limits) -> list[Finding]:
-        found = self._unknown(key, (name,))
-        if found:
-            return found
-        if limits.lower is None and limits.upper is None:
-            return [fault("no_limits", key, _("there is no limit"), _("give lower, upper or both"))]
-        if limits.lower is not None and limits.upper is not None and limits.upper <= limits.lower:
-            return [
-                fault(
-                    "limits_order",
-                    key,
-                    _("the upper limit is not above the lower one"),
-                    _("give the larger value as upper"),
-                )
-            ]
-        return self._small(key, (name,), "capability", 2 * (limits.subgroup or 1))
-
     def _fit_findings(self, word: str) -> list[Finding]:
-        found = self._small("fit", tuple(self.samples), word, FIT_MINIMUM)
+        found = too_small("fit", tuple(self.samples), word, FIT_MINIMUM, self.samples)
         found += [
             fault(
                 "not_positive",
@@ -392,26 +154,11 @@ class Samples(Problem):
         ]
         return found
 
-    def columns_of(self, fitting: Fitting) -> tuple[Floats, tuple[str, ...]]:
-        """The columns (n, p) of a regression and their names."""
-        first = [np.ones(len(self.values(fitting.y)))]
-        if len(fitting.on) == 1:
-            x = self.values(fitting.on[0])
-            powers = range(1, fitting.degree + 1)
-            names = [fitting.on[0] if p == 1 else f"{fitting.on[0]}^{p}" for p in powers]
-            return np.stack([*first, *(x**p for p in powers)], axis=1), ("1", *names)
-        return np.stack([*first, *(self.values(n) for n in fitting.on)], axis=1), ("1", *fitting.on)
-
     def dimensions_of(self, fitting: Fitting) -> list[units.Dimension]:
         """The dimensions of its coefficients: of y, then of y over each column."""
         y, xs = self.samples[fitting.y].dimension, [self.samples[name].dimension for name in fitting.on]
         powers = [(xs[0], p) for p in range(1, fitting.degree + 1)] if len(xs) == 1 else [(x, 1) for x in xs]
         return [y, *(units.times(y, x, -power) for x, power in powers)]
-
-    def regress(self, fitting: Fitting) -> Regression | None:
-        """The least squares; None where the columns depend on each other."""
-        columns, terms = self.columns_of(fitting)
-        return regression(self.values(fitting.y), columns, terms, self.confidence)
 
     def solve(self) -> Statistics:
         """All that is asked. Raises ModelError with all findings."""
@@ -450,7 +197,10 @@ class Statistics(Result):
     @cached_property
     def regressions(self) -> dict[str, Regression]:
         """By regression."""
-        found = {name: self.problem.regress(fitting) for name, fitting in self.problem.regressions.items()}
+        found = {
+            name: fitting.regress(self.problem.samples, self.problem.confidence)
+            for name, fitting in self.problem.regressions.items()
+        }
         return {name: each for name, each in found.items() if each is not None}
 
     @cached_property

@@ -24,7 +24,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Result
-from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
+from linkwright.parts.fields import MECHANISM, OfMechanism
 from linkwright.parts.trajectories.transport import FLIGHT, MODES, Transported, Trough, transport
 from linkwright.words import Message, Translate, _
 

@@ -19,7 +19,7 @@ from linkwright.fields.base import FileKeys, Quantity, Text, file_key
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem, Result
-from linkwright.parts.mechanism_field import load_referenced
+from linkwright.parts.fields import load_referenced
 from linkwright.units import GRAVITY
 from linkwright.words import Message, Translate, _, pgettext
 

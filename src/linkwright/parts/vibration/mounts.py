@@ -22,7 +22,7 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Result
-from linkwright.parts.mechanism_field import MECHANISM, OfMechanism
+from linkwright.parts.fields import MECHANISM, OfMechanism
 from linkwright.parts.vibration.linear import largest_between
 from linkwright.words import Translate, _, pgettext
 

@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import pairwise
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -19,18 +18,24 @@ from linkwright.equations.matrix import named_matrix
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, ModelError, fault
 from linkwright.fields.base import FileKeys, Quantity, Text, file_key
-from linkwright.fields.nodes import Node
-from linkwright.fields.reading import Place, Reader
-from linkwright.fields.tables import Listed, Named, Table
+from linkwright.fields.tables import Named, Table
 from linkwright.parts.base import Problem, Result
 from linkwright.parts.fields import AnyQuantity
-from linkwright.parts.vibration.excitation import (
+from linkwright.parts.vibration.components import (
+    DAMPER,
     EXCITATION,
+    GROUND,
+    SPRING,
+    START,
     STRAIGHT,
     TURNING,
+    Connector,
     Excitation,
+    MassesField,
+    Start,
     either,
     excitation_of,
+    mixed_findings,
     sampled_force,
 )
 from linkwright.parts.vibration.linear import Linear, largest_between, tuned
@@ -38,7 +43,6 @@ from linkwright.units import DIMENSIONS, SMALLEST
 from linkwright.words import Message, Translate, _, language_of
 from linkwright.words.sentence import in_language
 
-GROUND = "ground"
 #: Curves of frequency and time have so many points.
 POINTS = 801
 #: Times of a response in a period of the fastest mode, and how many at most.
@@ -51,54 +55,6 @@ LABELS: Mapping[str, Message] = {
     "absorber_stiffness": _("stiffness of its spring"),
     "absorber_damping": _("damping of its damper"),
 }
-
-
-@dataclass(frozen=True)
-class Connector:
-    """A spring or damper ``between`` two masses, or a mass and ``ground``; its ``rate`` N/m, N·s/m (N·m/rad …)."""
-
-    between: tuple[str, ...]
-    rate: float
-
-
-@dataclass(frozen=True)
-class Start:
-    """Displacement (m, rad) and velocity (m/s, rad/s) of a mass at the time zero."""
-
-    displacement: float = 0.0
-    velocity: float = 0.0
-
-
-def _tie(between: tuple[str, ...], rate: tuple[float, Any]) -> dict[str, Any]:
-    return {"between": between, "rate": rate}
-
-
-TIE = {"between": Listed(Text(), "[ground, body]", required=True, doc="two masses, or ground and a mass")}
-SPRING = Table(
-    {
-        **TIE,
-        "rate": AnyQuantity(either("stiffness"), required=True, key="stiffness", doc="N/m, or N·m/rad of a shaft"),
-    },
-    _tie,
-)
-DAMPER = Table(
-    {**TIE, "rate": AnyQuantity(either("damping"), required=True, key="damping", doc="N·s/m, or N·m·s/rad")}, _tie
-)
-START = {
-    "displacement": AnyQuantity(either("displacement"), doc="at the time zero, m or rad"),
-    "velocity": AnyQuantity(either("velocity"), doc="at the time zero, m/s or rad/s"),
-}
-
-
-@dataclass(frozen=True)
-class MassesField(Named):
-    """Masses by name; moments of inertia among them, as files had them before, are a warning."""
-
-    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
-        found = super().read(reader, node, place, siblings)
-        if any(each is not None and each[1] == DIMENSIONS["inertia"] for each in (found or {}).values()):
-            reader.old_key(node, place, "masses", "inertias")
-        return found
 
 
 @dataclass(frozen=True)
@@ -151,7 +107,7 @@ class VibratingSystem(Problem):
         discs = data.pop("inertias", None) or {}
         data["masses"] = {**(data.get("masses") or {}), **discs}
         turning = any(kind == DIMENSIONS["inertia"] for _unused, kind in data["masses"].values())
-        wrong = _mixed(data, dict.fromkeys(discs, "inertias"), turning)
+        wrong = mixed_findings(data, dict.fromkeys(discs, "inertias"), turning)
         if wrong:
             raise ModelError(wrong)
         data["masses"] = {name: value for name, (value, _unused) in data["masses"].items()}
@@ -211,7 +167,7 @@ class VibratingSystem(Problem):
         ]
         for what, ties in (("springs", self.springs), ("dampers", self.dampers)):
             for name, tie in ties.items():
-                found += self._tie_findings(f"{what}.{name}", tie)
+                found += tie.findings(f"{what}.{name}", self.masses)
         found += [
             fault(
                 "no_such_mass",
@@ -224,86 +180,12 @@ class VibratingSystem(Problem):
             for name in self.start
             if name not in self.masses
         ]
-        return found or self._excitation_findings()
+        if found or self.excitation is None:
+            return found
+        return self.excitation.findings(self.masses) or self._resonance(self.excitation)
 
-    def _tie_findings(self, key: str, tie: Connector) -> list[Finding]:
-        known = [GROUND, *self.masses]
-        if len(tie.between) != 2 or tie.between[0] == tie.between[-1]:
-            return [
-                fault(
-                    "two_ends",
-                    f"{key}.between",
-                    _("a spring or damper needs two different ends"),
-                    _("write between: [ground, body]"),
-                )
-            ]
-        found = [
-            fault(
-                "no_such_mass",
-                f"{key}.between",
-                _('there is no mass "{name}"'),
-                _("one of: {known}"),
-                name=end,
-                known=tuple(known),
-            )
-            for end in tie.between
-            if end not in known
-        ]
-        return (
-            [
-                *found,
-                fault("rate_negative", key, _("a negative stiffness or damping"), _("give a value of zero or more")),
-            ]
-            if tie.rate < 0
-            else found
-        )
-
-    def _excitation_findings(self) -> list[Finding]:
-        excitation = self.excitation
-        if excitation is None:
-            return []
-        forms = [n for n in ("force", "base", "unbalance") if getattr(excitation, n) is not None]
-        forms += ["table"] if excitation.times else []
-        if len(forms) != 1 or (forms[0] != "table" and excitation.frequency is None):
-            return [
-                fault(
-                    "excitation_form",
-                    "excitation",
-                    _("the excitation is neither complete nor unique"),
-                    _("give one of force, base, unbalance with frequency or speed, or a table"),
-                )
-            ]
-        if 0.0 in (excitation.force, excitation.base):
-            return [
-                fault(
-                    "no_amplitude",
-                    f"excitation.{forms[0]}",
-                    _("an amplitude of zero shakes nothing"),
-                    _("give another amplitude, or leave the excitation out"),
-                )
-            ]
-        if forms[0] != "base" and excitation.on not in self.masses:
-            return [
-                fault(
-                    "no_such_mass",
-                    "excitation.on",
-                    _('there is no mass "{name}"'),
-                    _("one of: {known}"),
-                    name=excitation.on,
-                    known=tuple(self.masses),
-                )
-            ]
-        times, forces = excitation.times, excitation.forces
-        falling = any(b <= a for a, b in pairwise(times))
-        if times and (len(times) != len(forces) or len(times) < 2 or falling):
-            return [
-                fault(
-                    "table",
-                    "excitation.table",
-                    _("the measured force is no table of increasing times"),
-                    _("give as many forces as times, two or more, times increasing"),
-                )
-            ]
+    def _resonance(self, excitation: Excitation) -> list[Finding]:
+        """A finding where the excitation has an undamped natural frequency."""
         linear = self.linear
         for i, own in enumerate(linear.modes[0]):
             near = (
@@ -355,41 +237,6 @@ class VibratingSystem(Problem):
         """Modes and responses. Raises ModelError with all findings."""
         self.require()
         return Vibration(self)
-
-
-def _mixed(data: Mapping[str, Any], where: Mapping[str, str], turning: bool) -> list[Finding]:
-    """Findings where straight and turning motion, or wrong units, come together."""
-    kinds = TURNING if turning else STRAIGHT
-    values = {f"{where.get(n, 'masses')}.{n}": (kind, "mass") for n, (_unused, kind) in data["masses"].items()}
-    for what, key in (("springs", "stiffness"), ("dampers", "damping")):
-        values |= {f"{what}.{n}.{key}": (t["rate"][1], key) for n, t in data.get(what, {}).items()}
-    for name, start in data.get("start", {}).items():
-        values |= {f"start.{name}.{word}": (kind, word) for word, (_unused, kind) in start.items()}
-    shaken = data.get("excitation") or {}
-    values |= {f"excitation.{key}": (shaken[key][1], key) for key in ("force", "base") if key in shaken}
-    table = (shaken.get("table") or {}).get("forces", ())
-    values |= {f"excitation.table.force.{i}": (kind, "force") for i, (_unused, kind) in enumerate(table)}
-    found = [
-        fault(
-            "mixed",
-            key,
-            _("straight and turning motion, or units of another kind, stand together: a {needed} is needed here"),
-            _("give all masses in kg with N/m and N·s/m, or all in kg·m² with N·m/rad and N·m·s/rad"),
-            needed=kinds[word].replace("_", " "),
-        )
-        for key, (kind, word) in values.items()
-        if kind != DIMENSIONS[kinds[word]]
-    ]
-    if turning and "unbalance" in shaken:
-        found.append(
-            fault(
-                "turning_unbalance",
-                "excitation.unbalance",
-                _("a rotor's unbalance shakes masses, not discs"),
-                _("give the torque on the disc"),
-            )
-        )
-    return found
 
 
 @dataclass(frozen=True, repr=False)

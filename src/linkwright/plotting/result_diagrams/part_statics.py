@@ -10,13 +10,12 @@ from linkwright.core.arrays import Floats
 from linkwright.core.quantity import significant
 from linkwright.parts.beams.beam import BeamLine
 from linkwright.parts.beams.link import LinkStress
-from linkwright.parts.statics.belt import BeltTensions
 from linkwright.parts.statics.body import HELD, Reactions
 from linkwright.parts.statics.force_system import PointEquilibrium, Resultant
 from linkwright.parts.statics.forces import spatial
+from linkwright.parts.statics.friction import BeltTensions, WedgeForces
 from linkwright.parts.statics.rotor import RotorBalance
 from linkwright.parts.statics.structure import StructureForces
-from linkwright.parts.statics.wedge import WedgeForces
 from linkwright.pictures.diagram import Figure
 from linkwright.pictures.drawing import Drawing
 from linkwright.plotting.diagrams.axes import InputAxis

@@ -8,9 +8,9 @@ from collections.abc import Mapping, Sequence
 
 from linkwright.core.quantity import number, shown
 from linkwright.parts.statics.rotor import Rotor
-from linkwright.parts.vibration.excitation import STRAIGHT, TURNING
+from linkwright.parts.vibration.components import GROUND, STRAIGHT, TURNING, Connector
 from linkwright.parts.vibration.follower import FollowerSpring
-from linkwright.parts.vibration.system import GROUND, Connector, VibratingSystem
+from linkwright.parts.vibration.system import VibratingSystem
 from linkwright.pictures.drawing import Drawing
 from linkwright.pictures.labels import Label
 from linkwright.pictures.picture import Vec

@@ -8,13 +8,13 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import shown
-from linkwright.parts.beams.beam import Beam, BeamLoad, BeamSupport
-from linkwright.parts.mechanism_field import OfMechanism
-from linkwright.parts.statics.belt import Belt
+from linkwright.parts.beams.beam import Beam
+from linkwright.parts.beams.components import BeamLoad, BeamSupport
+from linkwright.parts.fields import OfMechanism
 from linkwright.parts.statics.body import RigidBody, Support
 from linkwright.parts.statics.force_system import ForceSystem
 from linkwright.parts.statics.forces import spatial
-from linkwright.parts.statics.wedge import Wedge
+from linkwright.parts.statics.friction import Belt, Wedge
 from linkwright.parts.trajectories.particle import Particle
 from linkwright.pictures.drawing import Drawing
 from linkwright.pictures.picture import Vec

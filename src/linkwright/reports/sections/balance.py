@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.kinetostatics.forces import Forces
-from linkwright.parts.statics.balance import structure_balance
-from linkwright.parts.statics.structure import balance_step
+from linkwright.parts.statics.structure import balance_step, structure_balance
 from linkwright.reports.document import Block
 from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.section import section

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from linkwright.cams.joint import cam_of
+from linkwright.cams.cam import cam_of
 from linkwright.cams.result import CamDesign
 from linkwright.core.table import Amount, Cell, Table
 from linkwright.errors import with_remedy

@@ -6,8 +6,7 @@ import math
 
 import numpy as np
 
-from linkwright.cams.cam import Cam
-from linkwright.cams.joint import cam_of
+from linkwright.cams.cam import Cam, cam_of
 from linkwright.cams.result import CamDesign
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.joints.cam import CamJoint

@@ -1,4 +1,4 @@
-"""Cross sections: shapes by their dimensions, and a small table of rolled profiles."""
+"""What a beam consists of: cross sections, materials, supports and loads."""
 
 from __future__ import annotations
 
@@ -8,10 +8,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from linkwright.errors import Finding, RequestError, fault
-from linkwright.fields.base import Field, Quantities, Quantity, Text
+from linkwright.fields.base import Field, Quantities, Quantity, Schema, Text, Word, file_key, quantity_schema
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
 from linkwright.fields.tables import Table
+from linkwright.parts.beams.elastic import SupportCondition
 from linkwright.parts.fields import Known
 from linkwright.words import _
 
@@ -165,3 +166,120 @@ def require_modulus(section: Section) -> list[Finding]:
             )
         ]
     )
+
+
+@dataclass(frozen=True)
+class Material:
+    """Young's ``modulus`` Pa, ``strength`` (yield, for brittle materials tensile strength) Pa, ``density`` kg/m³.
+
+    ``strength`` and ``density`` are None where they are not known.
+    """
+
+    modulus: float = file_key(Quantity("pressure", above=0.0, doc="Young's modulus E"))
+    strength: float | None = file_key(Quantity("pressure", above=0.0, doc="yield strength"), None)
+    density: float | None = file_key(Quantity("density", above=0.0, doc="density"), None)
+    label: str = ""
+    source: str = ""
+
+
+#: Nominal values for small thicknesses; a design takes those of its delivery.
+TABLE: Mapping[str, Material] = {
+    each.label: each
+    for each in (
+        Material(210e9, 235e6, 7850, "S235", "EN 10025-2 (up to 16 mm); EN 1993-1-1"),
+        Material(210e9, 355e6, 7850, "S355", "EN 10025-2 (up to 16 mm); EN 1993-1-1"),
+        Material(206e9, 235e6, 7850, "Q235", "GB/T 700 (up to 16 mm); GB 50017"),
+        Material(206e9, 355e6, 7850, "45 steel", "GB/T 699, normalised"),
+        Material(70e9, 250e6, 2700, "EN AW-6082 T6", "EN 755-2, profiles up to 5 mm; EN 1999-1-1"),
+        Material(110e9, 250e6, 7200, "EN-GJL-250", "EN 1561 (tensile strength)"),
+    )
+}
+MATERIAL = Known(
+    Text(),
+    Table.of(Material),
+    TABLE,
+    _('there is no material "{name}"', code="beam.no_material"),
+    required=True,
+    doc=f"material: {', '.join(TABLE)}, or {{modulus: 210 GPa, strength: 235 MPa}}",
+)
+
+
+SUPPORTS = ("fixed", "pinned", "roller", "guided", "spring")
+
+
+@dataclass(frozen=True)
+class BeamSupport:
+    """``kind``: fixed, pinned or roller (equal in bending), guided (slope held), spring; ``at`` m.
+
+    ``settlement``: given deflection, m; ``stiffness`` N/m and ``torsional_stiffness`` N·m/rad of a spring.
+    """
+
+    kind: str = file_key(Word(SUPPORTS, doc=", ".join(SUPPORTS)))
+    at: float = file_key(Quantity("length", minimum=0.0, doc="its place"))
+    settlement: float = file_key(Quantity("length", doc="given deflection, upwards positive"), 0.0)
+    stiffness: float = file_key(Quantity("stiffness", minimum=0.0, doc="of a spring"), 0.0)
+    torsional_stiffness: float = file_key(Quantity("torsional_stiffness", minimum=0.0, doc="of a spring"), 0.0)
+
+    @property
+    def hold(self) -> SupportCondition:
+        """What it holds."""
+        return SupportCondition(
+            self.at,
+            self.kind in ("fixed", "pinned", "roller"),
+            self.kind in ("fixed", "guided"),
+            self.settlement,
+            self.stiffness,
+            self.torsional_stiffness,
+        )
+
+
+@dataclass(frozen=True)
+class LineLoad(Quantities):
+    """One value, or ``[first, last]``."""
+
+    def read(self, reader: Any, node: Any, place: Any, siblings: Mapping[str, Any]) -> tuple[float, ...] | None:
+        from linkwright.fields.nodes import Sequence as SequenceNode
+
+        if isinstance(node, SequenceNode):
+            return super().read(reader, node, place, siblings)
+        value = reader.quantity(node, place, self.dimension)
+        return None if value is None else (value, value)
+
+    def shape(self) -> Schema:
+        return {"anyOf": [quantity_schema(self.dimension), super().shape()]}
+
+
+@dataclass(frozen=True)
+class BeamLoad:
+    """One of: ``force`` (N, up) ``at`` a place, ``couple`` (N·m, counter-clockwise) ``at`` a place, ``line`` load.
+
+    A line load (N/m, up) lies from ``start`` to ``end``, to the beam's end unless given, constant or from its first
+    to its last value.
+    """
+
+    force: float | None = file_key(Quantity("force", doc="force, upwards positive, with at"), None)
+    couple: float | None = file_key(Quantity("torque", doc="couple, counter-clockwise positive, with at"), None)
+    line: tuple[float, ...] | None = file_key(
+        LineLoad(
+            "line_load",
+            count=2,
+            form="[0 N/m, -2 kN/m]",
+            doc="line load, upwards positive; [first, last] where it varies",
+        ),
+        None,
+    )
+    at: float | None = file_key(Quantity("length", minimum=0.0, doc="where the force or couple acts"), None)
+    start: float = file_key(
+        Quantity("length", minimum=0.0, key="from", doc="where the line load begins; default: 0"), 0.0
+    )
+    end: float | None = file_key(
+        Quantity("length", minimum=0.0, key="to", doc="where it ends; default: the beam's end"), None
+    )
+
+
+@dataclass(frozen=True)
+class SectionStep:
+    """From ``start`` on (m) the beam has another ``section``."""
+
+    start: float = file_key(Quantity("length", above=0.0, key="from", doc="from here on"))
+    section: Section = file_key(section_field())
