@@ -18,7 +18,7 @@ from tests.public import PUBLIC
 import linkwright as lw
 from linkwright import parts
 from linkwright.analysis import coupler_curve
-from linkwright.validation.published import from_gallery
+from linkwright.validation.validate import from_gallery
 
 
 def crusher(steps: int = 24) -> lw.Forces:

@@ -10,7 +10,7 @@ from tests import store
 from tests.every import every
 
 import linkwright as lw
-from linkwright.validation.published import from_gallery
+from linkwright.validation.validate import from_gallery
 
 
 def last_digit(number: str) -> float:

@@ -10,8 +10,7 @@ from typing import Any
 
 from linkwright.core.expressions import amount
 from linkwright.core.outputs import Output
-from linkwright.course.calculation_chain import Line
-from linkwright.course.mistakes import Sheet
+from linkwright.course.mistakes import Line, Sheet
 from linkwright.designs.ranges import dimension_of
 from linkwright.errors import LinkwrightError, QuantityError, RequestError
 from linkwright.fields.base import Text

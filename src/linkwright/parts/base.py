@@ -152,7 +152,7 @@ class Result(PlotMixin, Numbers):
 
     def worked(self, language: str = "en") -> str:
         """The worked solution as plain text."""
-        from linkwright.equations.text import page
+        from linkwright.equations.steps import page
 
         return page((in_language(self.title, language),), self.tidy_steps(speaker(language)))
 

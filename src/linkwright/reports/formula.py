@@ -11,6 +11,19 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
+from linkwright.equations.latex import (
+    ACCENTS,
+    BARE,
+    BELOW,
+    BRACES,
+    DELIMITERS,
+    FUNCTIONS,
+    IGNORED,
+    MATRICES,
+    SPACES,
+    STYLES,
+    SYMBOLS,
+)
 from linkwright.equations.notation import (
     Accent,
     Atom,
@@ -24,19 +37,6 @@ from linkwright.equations.notation import (
     Script,
     letter,
     sign,
-)
-from linkwright.equations.signs import (
-    ACCENTS,
-    BARE,
-    BELOW,
-    BRACES,
-    DELIMITERS,
-    FUNCTIONS,
-    IGNORED,
-    MATRICES,
-    SPACES,
-    STYLES,
-    SYMBOLS,
 )
 from linkwright.errors import LinkwrightError
 from linkwright.words import _

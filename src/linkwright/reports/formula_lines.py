@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from linkwright.equations.latex import LARGE, RELATIONS
 from linkwright.equations.notation import (
     EQUAL,
     Accent,
@@ -18,7 +19,6 @@ from linkwright.equations.notation import (
     Row,
     Script,
 )
-from linkwright.equations.signs import LARGE, RELATIONS
 from linkwright.words.characters import cells
 
 #: Binary signs and relations: a line may break before them.

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from linkwright.equations.latex import ACCENTS, BRACES
 from linkwright.equations.notation import Accent, Atom, Bracket, Fraction, Limits, Matrix, Node, Root, Row, Script
-from linkwright.equations.signs import ACCENTS, BRACES
 
 _ACCENTS = {
     "dot": "dot",

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from linkwright.equations.latex import ACCENTS, BRACES, INTEGRALS
 from linkwright.equations.notation import Accent, Atom, Bracket, Fraction, Limits, Matrix, Node, Root, Row, Script
-from linkwright.equations.signs import ACCENTS, BRACES, INTEGRALS
 from linkwright.reports.formula_lines import large, relation
 
 SPACE = "http://schemas.openxmlformats.org/officeDocument/2006/math"

@@ -17,7 +17,7 @@ from linkwright.core.arrays import Complexes, Flags, Floats, Integers
 from linkwright.core.attached import PlotMixin, attached
 from linkwright.core.quantity import length_text
 from linkwright.core.table import Table, Tabular
-from linkwright.equations.text import Solution
+from linkwright.equations.steps import Solution
 from linkwright.errors import LinkwrightError, speaker
 from linkwright.filesystem import atomic_write, refuse_target
 from linkwright.mechanism.mechanism import Mechanism

@@ -10,9 +10,8 @@ from linkwright.core.arguments import integer, require
 from linkwright.core.outputs import Output
 from linkwright.elements.topology import Group
 from linkwright.equations.reading import of_file, read_name
-from linkwright.equations.steps import Step, Written
+from linkwright.equations.steps import Solution, Step, Written, page
 from linkwright.equations.terms import ZERO, ZERO_TOLERANCE, Term, symbol, total
-from linkwright.equations.text import Solution, page
 from linkwright.errors import LinkwrightError, RequestError, require_language, speaker
 from linkwright.kinematics.groups import dyad_shape, in_one_step
 from linkwright.kinematics.motion import Motion
@@ -24,8 +23,14 @@ from linkwright.words.sentence import link_label, numbered_links
 from linkwright.worked_solutions.applied_forces import KnownForces
 from linkwright.worked_solutions.higher_pairs import closures
 from linkwright.worked_solutions.places import Places
-from linkwright.worked_solutions.points import Movers, check_closure, cut_displacements, place_points
-from linkwright.worked_solutions.rates import RateWriter, System
+from linkwright.worked_solutions.rates import (
+    Movers,
+    RateWriter,
+    System,
+    check_closure,
+    cut_displacements,
+    place_points,
+)
 from linkwright.worked_solutions.reactions import Reactions
 from linkwright.worked_solutions.symbols import SymbolTable
 from linkwright.worked_solutions.wheels import Wheels

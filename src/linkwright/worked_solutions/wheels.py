@@ -18,8 +18,16 @@ from linkwright.joints.base import Joint
 from linkwright.joints.cam import CamJoint
 from linkwright.words import _
 from linkwright.worked_solutions.cams import cam_pair
-from linkwright.worked_solutions.contacts import Contact, contact_of
-from linkwright.worked_solutions.higher_pairs import PairClosure, Slid, Turned, lever, one_by_one, pair_closures
+from linkwright.worked_solutions.higher_pairs import (
+    Contact,
+    PairClosure,
+    Slid,
+    Turned,
+    contact_of,
+    lever,
+    one_by_one,
+    pair_closures,
+)
 from linkwright.worked_solutions.places import Places
 from linkwright.worked_solutions.symbols import SymbolTable
 

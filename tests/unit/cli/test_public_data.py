@@ -13,8 +13,7 @@ from linkwright.core.json_data import plain
 from linkwright.files.calculations import COMMANDS
 from linkwright.machine.balancing import balance
 from linkwright.machine.running import steady_running
-from linkwright.validation.published import published
-from linkwright.validation.validate import validate
+from linkwright.validation.validate import published, validate
 
 
 def crusher() -> lw.Mechanism:

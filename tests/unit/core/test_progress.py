@@ -6,7 +6,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.core.progress import PACE, paced, part_of
-from linkwright.validation.published import from_gallery
+from linkwright.validation.validate import from_gallery
 
 
 def test_pieces_take_as_long_as_they_should(monkeypatch: pytest.MonkeyPatch) -> None:

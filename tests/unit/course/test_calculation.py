@@ -4,9 +4,8 @@ import pytest
 from tests import store
 
 import linkwright as lw
-from linkwright.course.calculation_chain import Calculation, lines_of
 from linkwright.course.grade import MISTAKE_NAMES
-from linkwright.course.mistakes import MISTAKES
+from linkwright.course.mistakes import MISTAKES, Calculation, lines_of
 
 
 @pytest.mark.parametrize("name", ["jaw_crusher_sixbar", "shaper_quick_return", "dyad_rpr", "triad", "toggle_press"])

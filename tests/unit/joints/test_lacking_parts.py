@@ -13,7 +13,7 @@ from linkwright.joints.base import Joint, LackingError
 from linkwright.mechanism.wheel_sizes import disc_radii, wheel_sizes
 from linkwright.page.contacts import contact_shape
 from linkwright.plotting.drawing.joint_marks import marks as marks_of
-from linkwright.worked_solutions.contacts import contact_of
+from linkwright.worked_solutions.higher_pairs import contact_of
 from linkwright.worked_solutions.wheels import own_form
 
 

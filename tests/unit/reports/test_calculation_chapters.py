@@ -19,9 +19,9 @@ from linkwright.equations.steps import Equation, Written
 from linkwright.errors import speaker
 from linkwright.pictures.svg.render import natural_size
 from linkwright.plotting.sketches.base import SKETCHES
-from linkwright.reports import report
 from linkwright.reports.document import Figure, Formula, Heading, Paragraph, Table, plain
 from linkwright.reports.formula import formula
+from linkwright.reports.report import report
 from linkwright.reports.typst_formula import typst
 from linkwright.words import _, say
 

@@ -4,7 +4,7 @@ import re
 
 from tests.every import every
 
-from linkwright.validation.published import published
+from linkwright.validation.validate import published
 from linkwright.words import in_language
 
 CHINESE = re.compile("[一-鿿]")

@@ -28,8 +28,7 @@ linkwright validate --json""",
 def run(options: Options, session: Session) -> int:
     """Compares and prints; 1 where a number differs."""
     from linkwright.cli.progress import progress
-    from linkwright.validation.published import published
-    from linkwright.validation.validate import validate
+    from linkwright.validation.validate import published, validate
 
     wanted = options.case.casefold()
     cases = [each for each in published() if wanted in f"{each.case} {each.source}".casefold()]
