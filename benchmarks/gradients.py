@@ -9,11 +9,11 @@ import numpy as np
 from benchmarks.cases import Floats, Work, fourbar_designs, sixbar_designs
 from benchmarks.timing import Candidate
 from linkwright.formula.gradient import Gradient
+from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.llvm_backend import available
 from linkwright.formula.program import Program
 from linkwright.formula.reductions import Reduction
 from linkwright.formula.summaries import summaries
-from linkwright.formula.vector import Vec
 
 VALUE, BOTH = "value", "value and gradient"
 

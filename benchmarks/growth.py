@@ -11,11 +11,9 @@ import numpy as np
 import linkwright as lw
 from benchmarks.timing import Candidate, Rounds, in_turns
 from linkwright.formula import machine_code
-from linkwright.formula.ir_kernel import kernel
-from linkwright.formula.ir_module import ENTRY
-from linkwright.formula.lines import Lines
+from linkwright.formula.ir_kernel import ENTRY, kernel
 from linkwright.formula.llvm_backend import available
-from linkwright.formula.program import Program
+from linkwright.formula.program import Lines, Program
 from linkwright.formula.reductions import Accumulation, Reduction
 from linkwright.formula.summaries import summaries
 from linkwright.kinematics.cycle import over_cycle

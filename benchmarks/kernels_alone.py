@@ -10,8 +10,7 @@ import numpy as np
 from benchmarks import by_c, by_numpy
 from benchmarks.cases import Floats, Work
 from benchmarks.timing import Candidate
-from linkwright.formula.call_block import address_of, aligned
-from linkwright.formula.llvm_backend import CompiledProgram, compile_program
+from linkwright.formula.llvm_backend import CompiledProgram, address_of, aligned, compile_program
 from linkwright.formula.machine_code import OF_ONE_ADDRESS
 from linkwright.formula.numpy_backend import NumpyProgram
 

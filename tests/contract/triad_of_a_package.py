@@ -3,7 +3,7 @@
 #: The module ``trammels``: a plate whose three pins slide along three guides that are known.
 PACKAGE = '''
 from linkwright.formula.trace import sqrt
-from linkwright.formula.vector import Vec
+from linkwright.formula.linear_algebra import Vec
 from linkwright.groups.base import Solved
 from linkwright.joints.pose import UNTURNED, Rotor
 from linkwright.kinematics.groups import pair_of

@@ -22,7 +22,7 @@ from linkwright.cycle.solved import Solved
 from linkwright.cycle.summaries import Signal
 from linkwright.errors import RequestError
 from linkwright.events.course import moves
-from linkwright.formula.derivative import forward
+from linkwright.formula.gradient import forward
 from linkwright.formula.machine_code import available
 from linkwright.formula.numpy_backend import numpy_program
 from linkwright.formula.program import Program

@@ -9,8 +9,8 @@ from typing import Any
 from linkwright.applied_loads import base
 from linkwright.applied_loads.base import LOADS, LinkPoint, Load
 from linkwright.applied_loads.site import Site, Wrench
+from linkwright.formula.linear_algebra import choose
 from linkwright.formula.trace import select
-from linkwright.formula.vector import choose
 from linkwright.words import _
 
 

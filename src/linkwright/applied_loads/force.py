@@ -9,7 +9,7 @@ from linkwright.applied_loads import base
 from linkwright.applied_loads.base import LOADS, Load, Magnitude, Output
 from linkwright.applied_loads.site import Mechanism, Site, Wrench
 from linkwright.errors import LinkwrightError
-from linkwright.formula.vector import Vec
+from linkwright.formula.linear_algebra import Vec
 from linkwright.words import _
 
 

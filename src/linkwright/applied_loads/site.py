@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from linkwright.drivers.base import Driver
+from linkwright.formula.linear_algebra import ZERO, Vec
 from linkwright.formula.trace import Scalar
-from linkwright.formula.vector import ZERO, Vec
 from linkwright.joints.base import Joint
 from linkwright.joints.lower_pair import SlidingJoint
 

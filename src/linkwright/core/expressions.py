@@ -97,7 +97,7 @@ class Expression:
     def along(self, values: Mapping[str, Any], name: str, order: int) -> list[trace.Scalar]:
         """Value and derivatives, see ``derivatives``, over numbers and traced values of the free names, of which that
         of ``name`` is traced; NaN where a number in the text is divided by zero."""
-        from linkwright.formula.tangent import slope
+        from linkwright.formula.differentiation import slope
 
         found: list[trace.Scalar] = [math.nan] * (order + 1)
         with suppress(ZeroDivisionError):

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from linkwright.core.arrays import Floats
-from linkwright.formula.call_block import address_of
 from linkwright.formula.kernel import Kernels, Reals, Vector, load, maximum, minimum, root, spread, store
 from linkwright.formula.kernel_writer import LANES
+from linkwright.formula.llvm_backend import address_of
 from linkwright.formula.machine_code import available
 
 POINTS, HALF, HALF_LOOKS = 16, 8, 12

@@ -21,7 +21,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.outputs import kind_of, owners_of
 from linkwright.designs.traced_outputs import RUBBING, VALID, Traced, friction_doubt, full_turns, with_limits
 from linkwright.errors import LinkwrightError
-from linkwright.formula.derivative import forward, reverse
+from linkwright.formula.gradient import forward, reverse
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
 from linkwright.formula.summaries import Backend

@@ -13,10 +13,10 @@ from functools import cached_property, lru_cache
 
 from linkwright.applied_loads.site import Wrench
 from linkwright.files.model_file import loads
+from linkwright.formula.linear_algebra import ZERO, Vec
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
 from linkwright.formula.trace import Scalar, Trace, Value
-from linkwright.formula.vector import ZERO, Vec
 from linkwright.groups.base import Dyad
 from linkwright.joints.pose import FRAME_POSE, FRAME_STATE, UNTURNED, Pose, Rotor, State
 from linkwright.kinematics.dimensions import Dimensions, DriverInput

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
-from linkwright.formula.vector import Vec
+from linkwright.formula.linear_algebra import Vec
 from linkwright.joints import pose
 from linkwright.joints.pose import Pose, Rotor
 from linkwright.words import _

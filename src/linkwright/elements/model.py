@@ -6,9 +6,9 @@ from collections.abc import Mapping, Set
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
-    from linkwright.formula.symbols import Symbols
+    from linkwright.formula.differentiation import Symbols
+    from linkwright.formula.linear_algebra import Vec
     from linkwright.formula.trace import Scalar, Trace
-    from linkwright.formula.vector import Vec
 
 
 class ModelLink(Protocol):

@@ -16,8 +16,8 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
 from linkwright.curves.pieces import LOW, Columns
-from linkwright.formula.adjoint import Adjoints
-from linkwright.formula.derivative import forward
+from linkwright.formula.differentiation import Adjoints
+from linkwright.formula.gradient import forward
 from linkwright.formula.machine_code import available
 from linkwright.formula.numpy_backend import numpy_program
 from linkwright.formula.program import Program

@@ -25,9 +25,9 @@ from typing import Any
 
 from linkwright.errors import RequestError
 from linkwright.formula import machine_code
-from linkwright.formula.cache import loaded_code
 from linkwright.formula.kernel_writer import KernelWriter, annotation
 from linkwright.formula.late_import import ir
+from linkwright.formula.machine_code import loaded_code
 from linkwright.words import _
 
 

@@ -1,20 +1,19 @@
-"""Evaluation by NumPy: the reference, always there."""
+"""Evaluation by NumPy: the reference, always there; a program laid out as calls on buffers that stay."""
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from linkwright.core.arrays import Floats
-from linkwright.formula.bound import BoundPlan
-from linkwright.formula.lines import Lines
-from linkwright.formula.program import Program
+from linkwright.formula.operations import FUNCTIONS
+from linkwright.formula.program import Lines, Program
 from linkwright.formula.recently_made import Recent
-from linkwright.formula.registers import Registers
 from linkwright.formula.scalar_backend import LineRunner, start_values
 from linkwright.formula.table import Table, Tables, tables_in_order
 
@@ -207,3 +206,177 @@ def _numbers(parameters: ArrayLike) -> list[float]:
 
 def _cut(arrays: Arrays, part: slice) -> dict[str, Floats]:
     return {name: np.asarray(array, dtype=np.float64)[part] for name, array in arrays.items()}
+
+
+Call = tuple[Callable[..., Any], tuple[Any, ...]]
+
+UFUNCS: dict[str, Callable[..., Any]] = {
+    "add": np.add,
+    "sub": np.subtract,
+    "mul": np.multiply,
+    "div": np.divide,
+    "neg": np.negative,
+    "less": np.less,
+    "less_equal": np.less_equal,
+    "and": np.logical_and,
+    "or": np.logical_or,
+    "not": np.logical_not,
+} | {op: getattr(np, function.ufunc) for op, function in FUNCTIONS.items()}
+_ZERO = np.zeros(())
+
+
+class BoundPlan:
+    """Buffers and calls for ``designs`` designs (None: one, without an axis) and ``positions`` positions.
+
+    Fill ``inputs[kind][place]`` (and, without an axis for the designs, the numbers of the boundary through
+    :meth:`set_design`; ``numbers``: the parameters that these are for) and ``tables`` in the program's order, call
+    :meth:`run`, read ``outputs`` of shape (outputs, designs, positions) or (outputs, positions).
+    """
+
+    def __init__(self, lines: Lines, registers: Registers, designs: int | None, positions: int) -> None:
+        self._lines = lines
+        self._single = designs is None
+        self._full: tuple[int, ...] = (positions,) if designs is None else (designs, positions)
+        self._shapes: dict[str, tuple[int, ...]] = {
+            "parameter": () if designs is None else (designs, 1),
+            "position": (positions,) if designs is None else (1, positions),
+            "field": self._full,
+        }
+        self.outputs: Floats = np.empty((len(lines.outputs), *self._full))
+        self.tables: list[Table] = []
+        self.numbers: list[float] | None = None
+        self.inputs: dict[str, list[Floats]] = {kind: [] for kind in self._shapes}
+        self._numbers_at = [i for i in lines.boundary() if not lines.lines[i].truth]
+        self._truths_at = [i for i in lines.boundary() if lines.lines[i].truth]
+        self._design_numbers = np.empty(len(self._numbers_at))
+        self._design_truths = np.empty(len(self._truths_at), dtype=np.bool_)
+        self._design_places = {i: self._design_truths[k, ...] for k, i in enumerate(self._truths_at)} | {
+            i: self._design_numbers[k, ...] for k, i in enumerate(self._numbers_at)
+        }
+        self._arrays = self._lay_out(registers)
+        self._calls = self._calls_for([i for i, line in enumerate(lines.lines) if line.varies and line.is_operation])
+        self._calls += [(np.copyto, (self.outputs[row], self._arrays[i])) for row, i in registers.copies]
+        self._design_calls = [] if self._single else self._calls_for(lines.design_lines())
+
+    def _lay_out(self, registers: Registers) -> list[NDArray[Any]]:
+        """The array of every line. One object per buffer: NumPy then sees what is in place."""
+        pools: dict[str, list[NDArray[Any]]] = {
+            ROW: list(self.outputs),
+            NUMBER: list(np.empty((registers.numbers, *self._full))),
+            TRUTH: list(np.empty((registers.truths, *self._full), dtype=np.bool_)),
+        }
+        arrays: list[NDArray[Any]] = []
+        for index, line in enumerate(self._lines.lines):
+            if index in registers.places:
+                kind, number = registers.places[index]
+                array = pools[kind][number]
+            elif line.op == "constant":
+                array = np.array(line.constant)
+            elif self._single and not line.varies:
+                array = self._design_places.get(index, _ZERO)
+            elif line.is_input:
+                array = np.empty(self._shapes[line.op])
+            else:
+                array = np.empty(self._shapes["parameter"], dtype=np.bool_ if line.truth else np.float64)
+            if line.is_input:
+                self.inputs[line.op].append(array)
+            arrays.append(array)
+        return arrays
+
+    def _calls_for(self, chosen: list[int]) -> list[Call]:
+        calls: list[Call] = []
+        for index in chosen:
+            line, out = self._lines.lines[index], self._arrays[index]
+            args = [self._arrays[a] for a in line.args]
+            if line.op == "select":
+                if out is not args[2]:
+                    calls.append((np.copyto, (out, args[2])))
+                calls.append((np.copyto, (out, args[1], "same_kind", args[0])))
+            elif line.op == "lookup":
+                calls.append((_look_up, (self.tables, line.place, int(line.constant), args[0], out)))
+            elif line.op == "number":
+                calls.append((np.copyto, (out, args[0])))
+            elif line.op == "truth":
+                calls.append((np.not_equal, (args[0], _ZERO, out)))
+            else:
+                calls.append((UFUNCS[line.op], (*args, out)))
+        return calls
+
+    def set_design(self, values: list[Any]) -> None:
+        """Values of all lines per design, by line number (plans without an axis for the designs)."""
+        if self._numbers_at:
+            self._design_numbers[:] = [values[i] for i in self._numbers_at]
+        if self._truths_at:
+            self._design_truths[:] = [values[i] for i in self._truths_at]
+
+    def run_design(self) -> None:
+        """Evaluate the lines per design (plans with an axis for the designs)."""
+        for function, args in self._design_calls:
+            function(*args)
+
+    def run(self) -> None:
+        """Evaluate the lines per position and fill the outputs."""
+        for function, args in self._calls:
+            function(*args)
+
+
+def _look_up(tables: list[Table], place: int, order: int, x: Floats, out: Floats) -> None:
+    out[...] = tables[place](x, order)
+
+
+#: Kinds of places: a row of the result, a number buffer, a truth buffer.
+ROW, NUMBER, TRUTH = "row", "number", "truth"
+Place = tuple[str, int]
+
+
+@dataclass(frozen=True, slots=True)
+class Registers:
+    """Places of the lines that vary; numbers of buffers; result rows filled by copying."""
+
+    places: dict[int, Place]
+    numbers: int
+    truths: int
+    copies: tuple[tuple[int, int], ...]
+
+    @classmethod
+    def of(cls, lines: Lines) -> Registers:
+        """Give every line that varies a place; an output is found where it is wanted."""
+        last = _last_uses(lines)
+        places: dict[int, Place] = {}
+        copies: list[tuple[int, int]] = []
+        for row, index in enumerate(lines.outputs):
+            line = lines.lines[index]
+            if line.varies and line.is_operation and not line.truth and index not in places:
+                places[index] = (ROW, row)
+            else:
+                copies.append((row, index))
+        free: dict[str, list[int]] = {NUMBER: [], TRUTH: []}
+        counts = {NUMBER: 0, TRUTH: 0}
+        for index, line in enumerate(lines.lines):
+            if not (line.varies and line.is_operation):
+                continue
+            dying = {a for a in line.args if last.get(a) == index and places.get(a, (ROW, 0))[0] != ROW}
+            early = {a for a in dying if line.op != "select" or a == line.args[2]}
+            _release(places, free, early)
+            if index not in places:
+                kind = TRUTH if line.truth else NUMBER
+                if free[kind]:
+                    number = free[kind].pop()
+                else:
+                    number = counts[kind]
+                    counts[kind] += 1
+                places[index] = (kind, number)
+            _release(places, free, dying - early)
+        return cls(places, counts[NUMBER], counts[TRUTH], tuple(copies))
+
+
+def _last_uses(lines: Lines) -> dict[int, int]:
+    last = {a: index for index, line in enumerate(lines.lines) for a in line.args}
+    last.update(dict.fromkeys(lines.outputs, len(lines.lines)))
+    return last
+
+
+def _release(places: dict[int, Place], free: dict[str, list[int]], indices: set[int]) -> None:
+    for index in sorted(indices):
+        kind, number = places[index]
+        free[kind].append(number)

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 
-from linkwright.formula.functions import FUNCTIONS
-from linkwright.formula.node import COMPARISONS, Node
+from linkwright.formula.operations import COMPARISONS, FUNCTIONS, Node
 from linkwright.formula.program import Program
 from linkwright.formula.trace import Operation, Scalar, Trace, Value
 

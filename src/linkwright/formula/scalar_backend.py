@@ -7,9 +7,8 @@ import operator
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from linkwright.formula.functions import FUNCTIONS
-from linkwright.formula.lines import Line, Lines
-from linkwright.formula.program import Program
+from linkwright.formula.operations import FUNCTIONS
+from linkwright.formula.program import Line, Lines, Program
 from linkwright.formula.table import Tables, tables_in_order
 
 #: (function, line to fill, first argument, second argument); one form for all, as a loop likes it.

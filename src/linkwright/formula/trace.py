@@ -1,7 +1,7 @@
 """Values that record what is done to them: one formula, written once, becomes one straight-line program.
 
 A kernel is a plain Python function over values that know ``+ - * /``, the functions of
-:mod:`~linkwright.formula.functions`, selection and look-ups in tables.
+:mod:`~linkwright.formula.operations`, selection and look-ups in tables.
 Called with numbers or arrays of them it computes; called with values of a :class:`Trace` it is written down.
 Equal operations on equal arguments are recorded once, and what is known at tracing time
 (zeros, ones, constants) is folded away.
@@ -14,9 +14,8 @@ from collections.abc import Container, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, overload
 
-from linkwright.formula.functions import FUNCTIONS
 from linkwright.formula.late_import import numpy as np
-from linkwright.formula.node import COMMUTATIVE, Entry, Node, needed
+from linkwright.formula.operations import COMMUTATIVE, FUNCTIONS, Entry, Node, needed
 
 Number = float | int
 Operation = tuple[str, *tuple[int, ...]]
@@ -235,7 +234,7 @@ class Trace:
         return self._operation("stop", a) if isinstance(a, Value) else a
 
     def function(self, op: str, *args: Scalar) -> Scalar:
-        """A function of :data:`~linkwright.formula.functions.FUNCTIONS`."""
+        """A function of :data:`~linkwright.formula.operations.FUNCTIONS`."""
         if any(isinstance(a, Value) for a in args):
             return self._operation(op, *args)
         return FUNCTIONS[op].value(*(float(a) for a in args if not isinstance(a, Value)))

@@ -13,8 +13,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol
 
+from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Scalar
-from linkwright.formula.vector import Vec
 from linkwright.joints.pose import Pose, Rotor
 from linkwright.registry import Registry
 from linkwright.words import _

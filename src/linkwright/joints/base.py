@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol, Self
 from linkwright.elements.topology import Connection, PairType
 from linkwright.errors import LinkwrightError, Severity
 from linkwright.fields.base import Field, Schema
+from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Scalar
-from linkwright.formula.vector import Vec
 from linkwright.joints.ends import Ends, Hung
 from linkwright.registry import Registry
 from linkwright.words import Message, _, pgettext
@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     from linkwright.fields.nodes import Node
     from linkwright.fields.reading import Place as Where
     from linkwright.fields.reading import Reader
+    from linkwright.formula.linear_algebra import Vec
     from linkwright.formula.trace import Mask, Scalar
-    from linkwright.formula.vector import Vec
 
 #: The size of a joint's force, from that force.
 Size = Callable[[Scalar], Scalar]

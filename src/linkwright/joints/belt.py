@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.elements.model import Model, Sizes
 from linkwright.fields.base import Field, Quantity, Word
+from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Mask, Scalar, reciprocal, sqrt
-from linkwright.formula.vector import Vec
 from linkwright.joints.base import JOINTS, Entry, Size
 from linkwright.joints.ends import Ends
 from linkwright.joints.toothed import WheelPair, length

@@ -13,8 +13,8 @@ from linkwright.core.quantity import shown
 from linkwright.elements.model import Drawing, Model, Sizes
 from linkwright.fields.base import Field, Quantity, Word
 from linkwright.fields.references import LinkName, PointName
+from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Scalar, acos, asin, select, sqrt
-from linkwright.formula.vector import Vec
 from linkwright.joints.base import JOINTS, Entry, HigherPair, Joint, Kinks, LackingError, Report, Size
 from linkwright.joints.cam_geometry import Geometry
 from linkwright.joints.ends import Ends

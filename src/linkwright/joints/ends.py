@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from linkwright.elements.model import Sizes
+from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Scalar, Value, angle
-from linkwright.formula.vector import Vec
 from linkwright.joints.pose import Pose, State
 
 Poses = Mapping[str, Pose]

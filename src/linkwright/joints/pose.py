@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from linkwright.formula.linear_algebra import ZERO, Vec
 from linkwright.formula.trace import Scalar
-from linkwright.formula.vector import ZERO, Vec
 
 
 @dataclass(frozen=True)

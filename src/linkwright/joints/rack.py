@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 from linkwright.elements.model import Drawing, Guide, Model, Sizes
 from linkwright.fields.base import Field, Quantity
 from linkwright.fields.references import Direction, LinkName, PointName
+from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Mask, Scalar, absolute, tan
-from linkwright.formula.vector import Vec
 from linkwright.joints.base import JOINTS, Entry, HigherPair, Joint, Report, Size
 from linkwright.joints.ends import Ends
 from linkwright.joints.gear import CLEARANCE, STANDARD

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from linkwright.fields.base import Field, Quantity
+from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Scalar
-from linkwright.formula.vector import Vec
 from linkwright.joints.base import JOINTS, Entry, Joint
 from linkwright.joints.ends import Ends, Hung
 from linkwright.joints.lower_pair import TurningJoint

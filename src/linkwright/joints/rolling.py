@@ -9,8 +9,8 @@ from typing import Any, ClassVar
 
 from linkwright.elements.model import Model, Sizes
 from linkwright.fields.base import Field, Quantity, Word
+from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Mask, Scalar, absolute, reciprocal, sqrt
-from linkwright.formula.vector import Vec
 from linkwright.joints.base import JOINTS, Entry, Joint, Size
 from linkwright.joints.ends import Ends
 from linkwright.joints.toothed import FITS, WheelPair, length

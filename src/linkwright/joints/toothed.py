@@ -20,8 +20,8 @@ from linkwright.core.quantity import shown
 from linkwright.elements.model import Drawing, Model, Sizes
 from linkwright.fields.base import Field, Quantities, Quantity, pair_schema
 from linkwright.fields.references import LinkName, LinkNames
+from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Scalar, reciprocal, sqrt
-from linkwright.formula.vector import Vec
 from linkwright.joints.base import Entry, HigherPair, Joint
 from linkwright.joints.ends import Ends
 from linkwright.words import Message, _

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from linkwright.elements.model import Sizes
 from linkwright.fields.base import Field, Quantity, Text
 from linkwright.fields.references import LinkNames
+from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Scalar
-from linkwright.formula.vector import Vec
 from linkwright.joints.base import JOINTS, Entry, Joint
 from linkwright.joints.ends import Ends, Hung
 from linkwright.joints.lower_pair import RigidJoint

@@ -15,11 +15,11 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import row_names
+from linkwright.formula.differentiation import slope
+from linkwright.formula.linear_algebra import ZERO, Vec
 from linkwright.formula.program import Program
 from linkwright.formula.scalar_backend import ScalarProgram
-from linkwright.formula.tangent import slope
 from linkwright.formula.trace import Scalar, Trace, Value, cos, sin
-from linkwright.formula.vector import ZERO, Vec
 from linkwright.joints.base import Joint
 from linkwright.joints.ends import Ends
 from linkwright.joints.pose import FRAME_POSE, Pose, Rotor

@@ -11,9 +11,9 @@ import numpy as np
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.inputs import Input, Kind
 from linkwright.elements.topology import Group, TreeJoint
+from linkwright.formula.differentiation import Slopes
 from linkwright.formula.program import Program
 from linkwright.formula.scalar_backend import ScalarProgram
-from linkwright.formula.tangent import Slopes
 from linkwright.formula.trace import Scalar, Value
 from linkwright.kinematics.assembly import Assembly, AssemblyError
 from linkwright.kinematics.branch import Branch, Way, follow, lawful, near_enough, straight

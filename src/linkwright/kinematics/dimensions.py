@@ -12,10 +12,10 @@ from linkwright.core.inputs import Input, mode_inputs
 from linkwright.drivers.base import Driver
 from linkwright.elements.topology import TreeJoint
 from linkwright.errors import LinkwrightError
+from linkwright.formula.differentiation import Symbols
 from linkwright.formula.late_import import numpy as np
-from linkwright.formula.symbols import Symbols
+from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Scalar, Trace, absolute, cos, select, sin, sqrt
-from linkwright.formula.vector import Vec
 from linkwright.kinematics.equation import ChainPair
 from linkwright.mechanism.link import Link, centre, local_points
 from linkwright.mechanism.mechanism import Mechanism

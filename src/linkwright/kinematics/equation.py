@@ -20,10 +20,10 @@ from functools import cached_property
 
 from linkwright.elements.model import Sizes
 from linkwright.elements.topology import Connection, TreeJoint
+from linkwright.formula.differentiation import slope
+from linkwright.formula.linear_algebra import ZERO, Vec
 from linkwright.formula.replay import Substitution
-from linkwright.formula.tangent import slope
 from linkwright.formula.trace import Scalar, Value
-from linkwright.formula.vector import ZERO, Vec
 from linkwright.joints.base import Joint
 from linkwright.joints.ends import Angles, Ends, Moving, Part, Poses, States
 from linkwright.joints.pose import Pose, Rotor, State

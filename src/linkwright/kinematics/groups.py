@@ -7,10 +7,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from linkwright.elements.topology import Connection, Group, TreeJoint
-from linkwright.formula.linear import Matrix, determinant, inverse, product
+from linkwright.formula.linear_algebra import Matrix, Vec, determinant, inverse, product
 from linkwright.formula.recently_made import Recent
 from linkwright.formula.trace import Mask, Scalar, cos, sin, stop
-from linkwright.formula.vector import Vec
 from linkwright.groups.base import DYADS, Chain, Dyad, Solved, WholeGroup
 from linkwright.joints.base import JOINTS
 from linkwright.joints.pose import UNTURNED, Pose, Rotor

@@ -16,11 +16,11 @@ from linkwright.core.arrays import Floats
 from linkwright.core.expression_tree import denominators, evaluate
 from linkwright.core.expressions import ON_VALUES
 from linkwright.core.outputs import NAMED, Output
+from linkwright.formula.differentiation import slope
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
 from linkwright.formula.recently_made import Recent
 from linkwright.formula.replay import inlined
-from linkwright.formula.tangent import slope
 from linkwright.formula.trace import Scalar, Trace, absolute, minimum
 from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.motion import Motion

@@ -10,9 +10,8 @@ from typing import Any
 from linkwright.core.inputs import Input
 from linkwright.core.outputs import KINDS, POINT, SLIDE, Output, row_name, row_names
 from linkwright.elements.topology import Group, TreeJoint
-from linkwright.formula.linear import product
+from linkwright.formula.linear_algebra import ZERO, Vec, product
 from linkwright.formula.trace import Mask, Scalar, Trace, select
-from linkwright.formula.vector import ZERO, Vec
 from linkwright.joints.pose import FRAME_POSE, FRAME_STATE, Pose, State
 from linkwright.kinematics.dimensions import Dimensions, DriverInput, driver_input, moving, pace_name
 from linkwright.kinematics.equation import reaction_place

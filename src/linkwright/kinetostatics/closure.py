@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from linkwright.elements.topology import Group, TreeJoint
-from linkwright.formula.linear import determinant
+from linkwright.formula.linear_algebra import Vec, determinant
 from linkwright.formula.recently_made import Recent
 from linkwright.formula.trace import Scalar, absolute, angle, sqrt
-from linkwright.formula.vector import Vec
 from linkwright.kinematics.trace import MotionOutputs
 from linkwright.kinetostatics.load_site import guide_state
 from linkwright.topology.analysis import Structure

@@ -11,8 +11,8 @@ import numpy as np
 from linkwright.applied_loads.site import Wrench
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import RelativeAngle, row_name
+from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Scalar
-from linkwright.formula.vector import Vec
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.trace import MotionOutputs, MotionTrace
 from linkwright.kinetostatics.load_site import guide_state

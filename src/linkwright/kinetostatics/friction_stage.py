@@ -15,10 +15,9 @@ from typing import Protocol
 
 from linkwright.applied_loads.site import Wrench
 from linkwright.elements.topology import Connection
-from linkwright.formula.linear import product, solution
-from linkwright.formula.tangent import slope
+from linkwright.formula.differentiation import slope
+from linkwright.formula.linear_algebra import ZERO, Vec, product, solution
 from linkwright.formula.trace import Mask, Scalar, Value, absolute, maximum, select, sqrt, stop
-from linkwright.formula.vector import ZERO, Vec
 from linkwright.kinetostatics.friction import FrictionTerm, FrictionTerms, traced_rate
 from linkwright.kinetostatics.load_site import guide_state
 from linkwright.kinetostatics.trace import ForceTrace, Size

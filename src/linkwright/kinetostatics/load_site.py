@@ -6,8 +6,8 @@ from linkwright.applied_loads.base import Load
 from linkwright.applied_loads.signals import BetweenLimits, place_named
 from linkwright.applied_loads.strokes import moving_of_turn, share_of, stroke_of_turn
 from linkwright.core.outputs import Output, row_name
+from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Mask, Scalar, angle, cos, select, sign, sin, sqrt
-from linkwright.formula.vector import Vec
 from linkwright.kinematics.trace import MotionOutputs, MotionTrace
 from linkwright.mechanism.mechanism import Mechanism
 

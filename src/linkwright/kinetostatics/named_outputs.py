@@ -14,9 +14,9 @@ from linkwright.core.inputs import Input
 from linkwright.core.outputs import NAMED, Output
 from linkwright.elements.topology import Group
 from linkwright.errors import RequestError
-from linkwright.formula.tangent import Slopes
+from linkwright.formula.differentiation import Slopes
+from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Scalar, Value, absolute, angle, atan, minimum, nearest_turn, select, sqrt
-from linkwright.formula.vector import Vec
 from linkwright.joints.pose import Rotor
 from linkwright.kinematics.names import HARMONIC, canonical, find_point, no_output, output_meant
 from linkwright.kinematics.output_formulas import traced_course

@@ -6,8 +6,8 @@ from functools import cached_property
 
 from linkwright.applied_loads.site import Wrench
 from linkwright.core.outputs import Output, row_name, row_names
+from linkwright.formula.linear_algebra import ZERO, Vec
 from linkwright.formula.trace import Scalar
-from linkwright.formula.vector import ZERO, Vec
 from linkwright.kinetostatics.trace import ForceTrace
 
 

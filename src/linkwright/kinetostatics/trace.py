@@ -14,9 +14,8 @@ from functools import partial
 
 from linkwright.applied_loads.site import Wrench
 from linkwright.elements.topology import Connection, TreeJoint
-from linkwright.formula.linear import product, transposed
+from linkwright.formula.linear_algebra import ZERO, Vec, product, transposed
 from linkwright.formula.trace import Scalar, absolute
-from linkwright.formula.vector import ZERO, Vec
 from linkwright.joints.pose import Pose
 from linkwright.kinematics.equation import Equation
 from linkwright.kinematics.groups import Placed, pair_of

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from linkwright.errors import RequestError
 from linkwright.filesystem import atomic_write, make_folder
-from linkwright.formula.cache import folder as cache_folder
+from linkwright.formula.machine_code import folder as cache_folder
 
 
 @dataclass(frozen=True)

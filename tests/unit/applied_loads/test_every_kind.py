@@ -25,7 +25,7 @@ from linkwright.files.build import Model
 from linkwright.files.model_file import loads
 from linkwright.files.schema import json_schema
 from linkwright.files.write import dump
-from linkwright.formula.vector import Vec
+from linkwright.formula.linear_algebra import Vec
 from linkwright.joints.base import JointName
 from linkwright.mechanism.mechanism import Mechanism
 

@@ -27,8 +27,7 @@ from tests.ui.browser import browser
 from tests.unit.formula.node import work
 
 import linkwright as lw
-from linkwright.formula.call_block import aligned
-from linkwright.formula.llvm_backend import compile_program
+from linkwright.formula.llvm_backend import aligned, compile_program
 from linkwright.kinetostatics.solver import ForceSolver
 
 ROUNDS, CALLS, STEPS = 40, 400, 360

@@ -13,14 +13,13 @@ import pytest
 from tests.every import every
 from tests.unit.formula.random_programs import random_program
 
-from linkwright.formula import kernel, linear, trace
-from linkwright.formula.lines import Lines
-from linkwright.formula.numpy_backend import NumpyProgram
-from linkwright.formula.program import Program
-from linkwright.formula.registers import NUMBER, ROW, TRUTH, Registers
+from linkwright.formula import kernel, trace
+from linkwright.formula import linear_algebra as linear
+from linkwright.formula.linear_algebra import Vec, choose
+from linkwright.formula.numpy_backend import NUMBER, ROW, TRUTH, NumpyProgram, Registers
+from linkwright.formula.program import Lines, Program
 from linkwright.formula.replay import Replay, across_designs
 from linkwright.formula.trace import Scalar, Trace, Value
-from linkwright.formula.vector import Vec, choose
 
 ONES = (0.0, 1.0, -1.0, 0.5, 2.5)
 

@@ -12,7 +12,8 @@ from tests.unit.formula.objectives import Term, gradient_of, table_of
 from tests.unit.formula.random_programs import PARAMETERS, POSITIONS, Formulas, outputs_of, random_program
 from tests.unit.formula.sweeps import sweep
 
-from linkwright.formula import ir_module, machine_code
+from linkwright.formula import ir_kernel as ir_module
+from linkwright.formula import machine_code
 from linkwright.formula.llvm_backend import available, compile_program
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program

@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from linkwright.formula import cache, machine_code
-from linkwright.formula.ir_module import ENTRY
+from linkwright.formula import machine_code
+from linkwright.formula import machine_code as cache
+from linkwright.formula.ir_kernel import ENTRY
 from linkwright.formula.llvm_backend import available, compile_program
 from linkwright.formula.program import Program
 from linkwright.formula.trace import Trace, sin

@@ -12,7 +12,7 @@ from mpmath import mpf
 from tests.every import every
 from tests.unit.formula.objectives import Term, gradient_of, table_of
 
-from linkwright.formula.derivative import forward, reverse
+from linkwright.formula.gradient import forward, reverse
 from linkwright.formula.llvm_backend import available
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program

@@ -14,10 +14,10 @@ from tests.unit.formula.node import in_node, needs_node, work
 import linkwright as lw
 from linkwright.errors import RequestError
 from linkwright.formula import wasm
+from linkwright.formula.differentiation import slope
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
 from linkwright.formula.table import Table
-from linkwright.formula.tangent import slope
 from linkwright.formula.trace import Trace, angle, cos, exp, floor, log, power, select, sin
 from linkwright.formula.wasm import wasm_module
 from linkwright.gallery import names

@@ -15,15 +15,14 @@ from tests.unit.formula.objectives import Term, gradient_of, table_of
 from tests.unit.formula.sweeps import sweep
 
 from linkwright.formula import trace as tr
-from linkwright.formula.derivative import forward
-from linkwright.formula.gradient import Gradient
+from linkwright.formula.differentiation import slope
+from linkwright.formula.gradient import Gradient, forward
 from linkwright.formula.llvm_backend import available, compile_program
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
 from linkwright.formula.reductions import Reduction
 from linkwright.formula.scalar_backend import ScalarProgram
 from linkwright.formula.table import Table
-from linkwright.formula.tangent import slope
 
 Floats = NDArray[np.float64]
 needs_compiler = pytest.mark.skipif(not available(), reason="llvmlite is not installed")

@@ -10,7 +10,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from linkwright.formula import cache, machine_code
+from linkwright.formula import machine_code
+from linkwright.formula import machine_code as cache
 from linkwright.formula.kernel import (
     Kernels,
     Reals,

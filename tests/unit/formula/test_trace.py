@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from linkwright.formula.functions import FUNCTIONS
 from linkwright.formula.numpy_backend import NumpyProgram
+from linkwright.formula.operations import FUNCTIONS
 from linkwright.formula.program import Program
 from linkwright.formula.table import Table
 from linkwright.formula.trace import Scalar, Trace, absolute, floor, maximum, minimum, power, select, sign

@@ -18,8 +18,8 @@ from tests.unit.joints.plain_dimensions import Numbers
 
 import linkwright as lw
 from linkwright.elements.topology import TreeJoint
+from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Trace
-from linkwright.formula.vector import Vec
 from linkwright.joints.base import JOINTS
 from linkwright.joints.pose import Pose, Rotor, State
 from linkwright.kinematics.equation import ChainPair, Equation, Wrench

@@ -13,8 +13,8 @@ from tests.refusals import refused
 import linkwright as lw
 from linkwright.designs.designs import sweep_curves
 from linkwright.errors import SelfCheckError
+from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Scalar
-from linkwright.formula.vector import Vec
 from linkwright.kinematics.equation import Equation
 from linkwright.kinematics.motion import Evaluate, Rows
 from linkwright.kinetostatics.forces import Forces

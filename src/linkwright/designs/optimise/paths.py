@@ -13,7 +13,7 @@ from linkwright.core.arrays import Floats, Indices
 from linkwright.designs.objective import Part, of_path
 from linkwright.designs.objective_terms import PathError
 from linkwright.designs.traced_outputs import VALID, Traced, design_table
-from linkwright.formula.derivative import forward
+from linkwright.formula.gradient import forward
 from linkwright.formula.program import Program
 from linkwright.formula.recently_made import Recent
 from linkwright.formula.reductions import VALID_COUNT, Reduction

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from linkwright.core.arrays import Complexes, Floats, Indices, Integers
-from linkwright.formula.cache import folder
+from linkwright.formula.machine_code import folder
 from linkwright.formula.threads import cores, spread_over
 from linkwright.synthesis.free_curve.curve_similarity import ANGLES, LANDMARKS, POINTS, REACH, RINGS, TURNS
 from linkwright.synthesis.free_curve.target import Target, even_points, normal

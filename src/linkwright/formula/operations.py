@@ -1,4 +1,4 @@
-"""Functions of one or two numbers: value, slopes, and their names in NumPy, LLVM and the C library.
+"""Operations of programs: lines that hold them, and functions with slopes and names in NumPy, LLVM and the C library.
 
 Equal bits: ``sqrt``, ``abs`` and ``floor`` are exact, so they are equal on all back ends. The others
 come from the C library on Python floats, and in compiled code but for ``sin``, ``cos``, ``atan`` and
@@ -11,8 +11,48 @@ Python and NumPy; compiled code may fuse and regroup them.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Container, Iterable
 from typing import Any, NamedTuple
+
+#: Operations that yield a truth value instead of a number.
+COMPARISONS = frozenset({"less", "less_equal", "and", "or", "not"})
+COMMUTATIVE = frozenset({"add", "mul", "and", "or"})
+
+
+class Node(NamedTuple):
+    """One line of a program: an input, a constant, or an operation on earlier lines.
+
+    ``name``: of an input, or of the table of a ``lookup``, whose ``constant`` is the order of its derivative.
+    """
+
+    op: str
+    args: tuple[int, ...]
+    constant: float
+    name: str
+    varies: bool  # differs from position to position (else one value per design)
+
+
+#: The fields of a :class:`Node` as a plain tuple: one of things that cannot refer to others is no longer looked at by
+#: the garbage collector, a named one is for as long as it lives.
+Entry = tuple[str, tuple[int, ...], float, str, bool]
+
+
+def needed(arguments: Callable[[int], Iterable[int]], wanted: Iterable[int], stop: Container[int] = ()) -> list[int]:
+    """The lines that the wanted ones are found from, in order; what is behind ``stop`` is left out.
+
+    ``arguments``: the numbers of the lines that a line takes.
+    """
+    found = set(wanted)
+    stack = list(found)
+    while stack:
+        index = stack.pop()
+        if index not in stop:
+            for arg in arguments(index):
+                if arg not in found:
+                    found.add(arg)
+                    stack.append(arg)
+    return sorted(found)
+
 
 #: d(value)/d(argument) as (trace, arguments, value) -> slope.
 Slope = Callable[[Any, list[Any], Any], Any]
