@@ -154,8 +154,7 @@ def _poses(count: int) -> str:
 
 def _nine(count: int, kind: str) -> str:
     """Nine points of hidden four-bars: are all classes found, and the hidden one among the real ones?"""
-    from linkwright.synthesis.nine_points.classes import class_keys, is_real
-    from linkwright.synthesis.nine_points.query import nine_points
+    from linkwright.synthesis.path_generation.nine_points import class_keys, is_real, nine_points
 
     complete = found = lost = 0
     clock = Clock()
@@ -180,8 +179,7 @@ def _loops(count: int) -> str:
     Were classes missing, a loop that permutes all classes freely would leave the known ones among themselves with a
     probability of 1/1443 at most.
     """
-    from linkwright.synthesis.nine_points.classes import class_keys, new_classes
-    from linkwright.synthesis.nine_points.start import around, start_set
+    from linkwright.synthesis.path_generation.nine_points import around, class_keys, new_classes, start_set
 
     q, u = start_set()
     new = twice = lost = moved = 0

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.synthesis.nine_points.start import displacements
+from linkwright.synthesis.path_generation.nine_points import displacements
 
 Complexes = NDArray[np.complex128]
 

@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.synthesis.cases import Case
-from linkwright.synthesis.assessment import Assessment, assess_four_bars
-from linkwright.synthesis.build import coupler_unit
+from linkwright.synthesis.candidates import Assessment, assess_four_bars, coupler_unit
 
 Floats = NDArray[np.float64]
 #: a b c d u v x0 y0 rotation phase, in units of the path's size about its centre.

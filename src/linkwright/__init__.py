@@ -46,6 +46,6 @@ SECTIONS.update(
         "course": "linkwright.course.task:SECTION",
         "optimize": "linkwright.designs.optimise.problem:SECTION",
         "report": "linkwright.reports.settings:SECTION",
-        "synthesis": "linkwright.synthesis.section:SECTION",
+        "synthesis": "linkwright.synthesis.tasks:SECTION",
     }
 )

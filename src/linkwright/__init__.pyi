@@ -103,7 +103,7 @@ from .sheets.sheet import sheet as sheet
 from .synthesis.free_curve.generate import free_curve as free_curve
 from .synthesis.function_generation.generate import function_generation as function_generation
 from .synthesis.motion_generation.generate import motion_generation as motion_generation
-from .synthesis.path_generation.cognates import cognates as cognates
+from .synthesis.path_generation.exact import cognates as cognates
 from .synthesis.path_generation.exact import exact_path_generation as exact_path_generation
 from .synthesis.path_generation.generate import path_generation as path_generation
 from .synthesis.result import Candidate as Candidate

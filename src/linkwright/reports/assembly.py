@@ -31,7 +31,7 @@ from linkwright.reports.order import Part
 from linkwright.reports.section import Section
 from linkwright.reports.sections.references import own_sources
 from linkwright.reports.settings import Chapter, Settings
-from linkwright.synthesis.task_file import TaskFile
+from linkwright.synthesis.tasks import TaskFile
 from linkwright.words import _
 from linkwright.words.sentence import in_language
 

@@ -11,7 +11,7 @@ from linkwright.registry import listed
 from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.section import SECTIONS, Section, section_names
 from linkwright.reports.settings import OTHER_SECTIONS, Chapter, Settings
-from linkwright.synthesis.task_file import TaskFile
+from linkwright.synthesis.tasks import TaskFile
 from linkwright.words import _
 from linkwright.words.sentence import in_language
 

@@ -22,7 +22,7 @@ from linkwright.reports.document import Document, Source, walk
 from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.order import Calculation, chosen, parts
 from linkwright.reports.settings import settings, worked_place
-from linkwright.synthesis.task_file import TaskFile, task_file
+from linkwright.synthesis.tasks import TaskFile, task_file
 from linkwright.words import _
 
 ENDINGS = (".pdf", ".html", ".docx", ".typ")

@@ -1,4 +1,4 @@
-"""What tasks, linkages, defects and errors of synthesis are called in words."""
+"""What tasks, linkages, defects and errors of synthesis are called, and the messages that several tasks share."""
 
 from __future__ import annotations
 
@@ -146,3 +146,68 @@ def display_name(name: str, tell: Translate) -> str:
         return tell(_("link{number}", number=numbered))
     word = tell(NAMES[stem]) if stem in NAMES else stem
     return f"{word} {unit}".rstrip()
+
+
+#: Messages that several tasks share.
+FREE_CURVE_FILE = _(
+    'the curve\'s file "{path}" cannot be read; name a .csv, .txt or .svg file', code="synthesize.free_curve.file"
+)
+FREE_CURVE_NO_CURVE = _(
+    "a free curve needs its points or a file, and one of them only; give points: or file:",
+    code="synthesize.free_curve.no_curve",
+)
+FREE_CURVE_NO_PATH = _(
+    '"{path}" has no path that can be drawn; save the curve as a path, polyline or polygon',
+    code="synthesize.free_curve.no_path",
+)
+FUNCTION_NONE = _(
+    "no {linkage} was found that moves through all positions; leave more numbers free or change the function",
+    code="synthesize.function.none",
+)
+LINK_RATIO_UNMET = _(
+    "no linkage was found whose longest link is at most {value} times its shortest; the "
+    "smallest ratio found is {minimum} (the nearest solution has that): allow a larger "
+    "link_ratio",
+    code="synthesize.link_ratio_unmet",
+)
+MOTION_FITTED = _(
+    "{poses} poses cannot all be met exactly; the links' lengths differ between the poses by the error shown",
+    code="synthesize.motion.fitted",
+)
+MOTION_NO_MOVABLE = _(
+    "no linkage moves through all poses in order without being dismantled; the best one has: {why}",
+    code="synthesize.motion.no_movable",
+)
+MOTION_NO_PAIRS = _(
+    "no two dyads make a linkage within the given region; enlarge it", code="synthesize.motion.no_pairs"
+)
+MOTION_POSES = _(
+    "the poses must be a list of two or more x, y, angle; write [[x, y, angle], …]", code="synthesize.motion.poses"
+)
+NOT_POSITIVE = _("invalid {name} {value}; expected a positive, finite number", code="synthesize.not_positive")
+PATH_NO_REAL = _(
+    "no real four-bar passes exactly through the {count} points in every class that was "
+    "found; the nearest solution is that of least squares, with a sum of squared distances "
+    "of {error} m²",
+    code="synthesize.path.no_real",
+)
+PATH_ONE_PLACE = _("all points of the path lie in one place; give different points", code="synthesize.path.one_place")
+POINTS = _(
+    "the points must be a list of pairs of finite coordinates; write [[x, y], [x, y], …]", code="synthesize.points"
+)
+TOO_ROUNDED = _(
+    "with lengths rounded to multiples of {value} mm the best linkage no longer meets the "
+    "demands; give a smaller rounding (the nearest solution is not rounded)",
+    code="synthesize.rounding",
+)
+NO_TASK = _('there is no task "{task}"; known: {known}', code="synthesize.task")
+DEMAND_MISSING = _('the task "{task}" needs "{demand}": {form}', code="synthesize.task.missing")
+NOT_WITH = _('"{demand}" does not apply with {other}; leave out one of them', code="synthesize.task.not_with")
+ONLY_WITH = _(
+    '"{demand}" applies only with "{needs}"; leave it out or give that as well', code="synthesize.task.only_with"
+)
+DEMAND_UNKNOWN = _('"{demand}" is no demand of the task "{task}"; {hint}', code="synthesize.task.unknown")
+TRANSMISSION_RANGE = _(
+    "invalid minimum transmission angle {value} deg; expected more than 0 and less than 90 deg",
+    code="synthesize.transmission_range",
+)

@@ -1,4 +1,15 @@
-"""What a synthesis gives: candidates with what a designer must know about each, ranked."""
+"""What a synthesis gives: candidates with what a designer must know about each, ranked.
+
+Linkages that meet a demand equally well are ranked by transmission, size and unequal links in one number:
+
+    merit = sin μ · min(1, 3 D / L) · min(1, 10 / q),
+
+μ the smallest transmission angle (sin μ is the share of the coupler's force that turns the output), L the longest
+distance between two points of one link, D that between two demanded points, q the longest over the shortest link. Up
+to three times the demand and a ratio of ten nothing is taken off; beyond, twice the size halves the merit.
+Transmission angle, ratio of links and size are what designers choose by (Erdman and Sandor, Mechanism Design,
+vol. 1); the product, the 3 and the 10 are this program's.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from linkwright.core.arguments import real
 from linkwright.core.arrays import Complexes, Flags, Floats, Integers
@@ -21,8 +32,7 @@ from linkwright.equations.steps import Solution
 from linkwright.errors import LinkwrightError, speaker
 from linkwright.filesystem import atomic_write, refuse_target
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.synthesis.linkage import Linkage
-from linkwright.synthesis.merit import merit
+from linkwright.synthesis.linkage import Linkage, peak_loads
 from linkwright.synthesis.names import DEFECTS, ERRORS, TYPE_NAMES, display_name
 from linkwright.words import Message, Translate, _, pgettext
 
@@ -89,8 +99,6 @@ class Candidate:
 
         Links are slender rods between their first two points, m l²/12 about their middle; gravity is left out.
         """
-        from linkwright.synthesis.effort import peak_loads
-
         return peak_loads(self.linkage, mass_per_length, speed, steps)
 
     def data(self) -> dict[str, Any]:
@@ -314,69 +322,20 @@ class SynthesisError(LinkwrightError):
         return SynthesisError, (self.args[0], self.nearest)
 
 
-#: Sentences that several tasks say.
-FREE_CURVE_FILE = _(
-    'the curve\'s file "{path}" cannot be read; name a .csv, .txt or .svg file', code="synthesize.free_curve.file"
-)
-FREE_CURVE_NO_CURVE = _(
-    "a free curve needs its points or a file, and one of them only; give points: or file:",
-    code="synthesize.free_curve.no_curve",
-)
-FREE_CURVE_NO_PATH = _(
-    '"{path}" has no path that can be drawn; save the curve as a path, polyline or polygon',
-    code="synthesize.free_curve.no_path",
-)
-FUNCTION_NONE = _(
-    "no {linkage} was found that moves through all positions; leave more numbers free or change the function",
-    code="synthesize.function.none",
-)
-LINK_RATIO_UNMET = _(
-    "no linkage was found whose longest link is at most {value} times its shortest; the "
-    "smallest ratio found is {minimum} (the nearest solution has that): allow a larger "
-    "link_ratio",
-    code="synthesize.link_ratio_unmet",
-)
-MOTION_FITTED = _(
-    "{poses} poses cannot all be met exactly; the links' lengths differ between the poses by the error shown",
-    code="synthesize.motion.fitted",
-)
-MOTION_NO_MOVABLE = _(
-    "no linkage moves through all poses in order without being dismantled; the best one has: {why}",
-    code="synthesize.motion.no_movable",
-)
-MOTION_NO_PAIRS = _(
-    "no two dyads make a linkage within the given region; enlarge it", code="synthesize.motion.no_pairs"
-)
-MOTION_POSES = _(
-    "the poses must be a list of two or more x, y, angle; write [[x, y, angle], …]", code="synthesize.motion.poses"
-)
-NOT_POSITIVE = _("invalid {name} {value}; expected a positive, finite number", code="synthesize.not_positive")
-PATH_NO_REAL = _(
-    "no real four-bar passes exactly through the {count} points in every class that was "
-    "found; the nearest solution is that of least squares, with a sum of squared distances "
-    "of {error} m²",
-    code="synthesize.path.no_real",
-)
-PATH_ONE_PLACE = _("all points of the path lie in one place; give different points", code="synthesize.path.one_place")
-POINTS = _(
-    "the points must be a list of pairs of finite coordinates; write [[x, y], [x, y], …]", code="synthesize.points"
-)
-TOO_ROUNDED = _(
-    "with lengths rounded to multiples of {value} mm the best linkage no longer meets the "
-    "demands; give a smaller rounding (the nearest solution is not rounded)",
-    code="synthesize.rounding",
-)
-NO_TASK = _('there is no task "{task}"; known: {known}', code="synthesize.task")
-DEMAND_MISSING = _('the task "{task}" needs "{demand}": {form}', code="synthesize.task.missing")
-NOT_WITH = _('"{demand}" does not apply with {other}; leave out one of them', code="synthesize.task.not_with")
-ONLY_WITH = _(
-    '"{demand}" applies only with "{needs}"; leave it out or give that as well', code="synthesize.task.only_with"
-)
-DEMAND_UNKNOWN = _('"{demand}" is no demand of the task "{task}"; {hint}', code="synthesize.task.unknown")
-TRANSMISSION_RANGE = _(
-    "invalid minimum transmission angle {value} deg; expected more than 0 and less than 90 deg",
-    code="synthesize.transmission_range",
-)
+#: Longest distance on a link over that of the demand, longest over shortest link: up to these nothing is taken off.
+USUAL_SIZE, USUAL_RATIO = 3.0, 10.0
+
+
+def merit(transmission: ArrayLike, ratio: ArrayLike, longest: ArrayLike, extent: float) -> Floats:
+    """The merit of linkages (N,): angles in rad, lengths in m; ``extent`` 0: no length is demanded."""
+    size = np.maximum(np.asarray(longest, float) / extent / USUAL_SIZE, 1.0) if extent > 0 else 1.0
+    unequal = np.maximum(np.asarray(ratio, float) / USUAL_RATIO, 1.0)
+    return np.asarray(np.sin(np.nan_to_num(transmission)) / size / unequal)
+
+
+def extent_of(points: Complexes) -> float:
+    """The largest distance between two of the points, m."""
+    return float(np.abs(points[:, None] - points).max())
 
 
 def ranking(error: Floats, merits: Floats, sound: Flags, size: float) -> Integers:

@@ -5,7 +5,7 @@ from linkwright.cli.commands import report
 from linkwright.reports.section import section_names
 from linkwright.sheets import paper
 from linkwright.synthesis.names import TASK_NAMES
-from linkwright.synthesis.section import tasks
+from linkwright.synthesis.tasks import tasks
 
 
 def test_help_names_all_that_there_are() -> None:

@@ -14,15 +14,21 @@ from linkwright.core.arrays import Integers
 from linkwright.formula import machine_code
 from linkwright.synthesis.free_curve import search
 from linkwright.synthesis.free_curve.atlas import STEP, Atlas, M, Matches, _draws, parts, places
-from linkwright.synthesis.free_curve.curve_file import path_points, read_curve
 from linkwright.synthesis.free_curve.curve_similarity import TURNS
-from linkwright.synthesis.free_curve.drawing_order import drawing
 from linkwright.synthesis.free_curve.kernels import BLOCK, GUIDE, PIVOT, POINT, SLIDER
-from linkwright.synthesis.free_curve.linkages import Placed, linkage_of
+from linkwright.synthesis.free_curve.linkages import Placed, drawing, linkage_of
 from linkwright.synthesis.free_curve.local_search import DAMPING
-from linkwright.synthesis.free_curve.mutations import with_dyad, with_joint
 from linkwright.synthesis.free_curve.search import Search, polished
-from linkwright.synthesis.free_curve.target import FINE, MIDDLE, Target, even_points, normal, symmetric_distance
+from linkwright.synthesis.free_curve.target import (
+    FINE,
+    MIDDLE,
+    Target,
+    even_points,
+    normal,
+    path_points,
+    read_curve,
+    symmetric_distance,
+)
 from linkwright.synthesis.free_curve.topology import (
     FOUR_BAR,
     ONE_DYAD,
@@ -34,6 +40,8 @@ from linkwright.synthesis.free_curve.topology import (
     node_paths,
     random_structure,
     turned_paths,
+    with_dyad,
+    with_joint,
 )
 
 pytestmark = [

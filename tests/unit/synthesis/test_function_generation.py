@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from linkwright.synthesis.function_generation.exact import chebyshev_spacing, five_pairs
-from linkwright.synthesis.function_generation.generators import KINDS, GearedFiveBar
-from linkwright.synthesis.function_generation.proven_extremes import extremes
+from linkwright.synthesis.function_generation.generators import KINDS, GearedFiveBar, extremes
 
 pytestmark = pytest.mark.rotating
 

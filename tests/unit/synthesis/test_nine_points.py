@@ -4,11 +4,20 @@ import numpy as np
 import pytest
 from tests.unit.synthesis.trace_starts import curve
 
-from linkwright.synthesis.nine_points import tracker
-from linkwright.synthesis.nine_points.classes import CLASSES, class_keys, is_real, new_classes, relatives
-from linkwright.synthesis.nine_points.query import NinePoints, nine_points
-from linkwright.synthesis.nine_points.start import around, random_points, start_set
-from linkwright.synthesis.nine_points.tracker import residual
+from linkwright.synthesis.path_generation import tracking as tracker
+from linkwright.synthesis.path_generation.nine_points import (
+    CLASSES,
+    NinePoints,
+    around,
+    class_keys,
+    is_real,
+    new_classes,
+    nine_points,
+    random_points,
+    relatives,
+    start_set,
+)
+from linkwright.synthesis.path_generation.tracking import residual
 
 PROBLEM_3 = [(0.25, 0), (0.52, 0.1), (0.8, 0.7), (1.2, 1), (1.4, 1.3), (1.1, 1.48), (0.7, 1.4), (0.2, 1), (0.02, 0.4)]
 

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.synthesis.crank_family import CrankFamily, couplers
-from linkwright.synthesis.path_generation.compiled_starts import CompiledPaths
-from linkwright.synthesis.path_generation.demand import Demand, PathStarts
+from linkwright.synthesis.path_generation.crank_family import CrankFamily, Demand, PathStarts, couplers
+from linkwright.synthesis.path_generation.search import CompiledPaths
 from linkwright.synthesis.result import different
 
 pytestmark = pytest.mark.rotating

@@ -33,10 +33,10 @@ RING = [(20, 10), (17.66, 15.142), (11.736, 17.878), (5, 16.928), (0.6, 12.736),
 FREE = [math.nan] * 7
 #: Tasks of counted work, and the piece of work of which many are done.
 COUNTED = {
-    "path": ("path_generation.compiled_starts.CompiledPaths._computed", {"points": RING[:7]}),
-    "exact_path": ("nine_points.tracker.spread_over", {"points": RING}),
+    "path": ("path_generation.search.CompiledPaths._computed", {"points": RING[:7]}),
+    "exact_path": ("path_generation.tracking.spread_over", {"points": RING}),
     "motion": (
-        "motion_generation.finite_solutions.carried",
+        "motion_generation.mixed_poses.carried",
         {"poses": [(x, y, a) for (x, y), a in zip(RING[:7], [0, 0.3, 0.5, *FREE], strict=False)]},
     ),
 }

@@ -28,9 +28,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright.synthesis.motion_generation import finite_solutions as counted
-from linkwright.synthesis.motion_generation.finite_solutions import KNOWN
-from linkwright.synthesis.nine_points.start import start_set
+from linkwright.synthesis.motion_generation import mixed_poses as counted
+from linkwright.synthesis.motion_generation.mixed_poses import KNOWN
+from linkwright.synthesis.path_generation.nine_points import start_set
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complexfloating]

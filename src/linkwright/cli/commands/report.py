@@ -75,7 +75,7 @@ def run(options: Options, session: Session) -> int:
     from linkwright.cli.progress import progress
     from linkwright.parts.file import kind_of
     from linkwright.reports.report import report
-    from linkwright.synthesis.task_file import task_file
+    from linkwright.synthesis.tasks import task_file
 
     forms = FORMS if options.to is None else (options.to,)
     path = Path(options.output) if options.output else default_path(options.files[0], f"-report.{forms[0]}")

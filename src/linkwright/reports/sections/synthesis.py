@@ -13,7 +13,7 @@ from linkwright.reports.sections.method import printed
 from linkwright.reports.sections.worked_position import to_scale
 from linkwright.reports.settings import Settings
 from linkwright.synthesis.result import Synthesis, SynthesisError
-from linkwright.synthesis.task_file import TaskFile
+from linkwright.synthesis.tasks import TaskFile
 from linkwright.words import Translate, _
 from linkwright.words.sentence import in_language
 

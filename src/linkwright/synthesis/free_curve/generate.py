@@ -12,25 +12,14 @@ from numpy.typing import ArrayLike
 from linkwright.core.arrays import Complexes
 from linkwright.core.progress import Progress, current_progress
 from linkwright.designs.checkpoints import RESUME, current_checkpoints
-from linkwright.synthesis.free_curve.curve_file import read_curve
-from linkwright.synthesis.free_curve.drawing_order import drawing
-from linkwright.synthesis.free_curve.linkages import Placed, kind_of, linkage_of
+from linkwright.synthesis.free_curve.linkages import Placed, drawing, kind_of, linkage_of
 from linkwright.synthesis.free_curve.search import JOINTS, Search
-from linkwright.synthesis.free_curve.target import Target
+from linkwright.synthesis.free_curve.target import Target, read_curve
 from linkwright.synthesis.free_curve.topology import Design
+from linkwright.synthesis.names import FREE_CURVE_NO_CURVE, ONLY_WITH, PATH_ONE_PLACE, TRANSMISSION_RANGE
 from linkwright.synthesis.path_generation.generate import complex_points
 from linkwright.synthesis.requirements.slider_crank import not_negative, positive
-from linkwright.synthesis.result import (
-    FREE_CURVE_NO_CURVE,
-    ONLY_WITH,
-    PATH_ONE_PLACE,
-    TRANSMISSION_RANGE,
-    Candidate,
-    Derivation,
-    Synthesis,
-    SynthesisError,
-    require_integers,
-)
+from linkwright.synthesis.result import Candidate, Derivation, Synthesis, SynthesisError, require_integers
 from linkwright.words import _
 
 #: Positions of a candidate's curve.

@@ -31,9 +31,8 @@ from linkwright.formula.threads import chunks, cores
 from linkwright.synthesis.free_curve.atlas import NEAREST, Laid, atlas
 from linkwright.synthesis.free_curve.kernels import FAR
 from linkwright.synthesis.free_curve.linkages import Placed
-from linkwright.synthesis.free_curve.mutations import shaken, with_dyad, with_joint
 from linkwright.synthesis.free_curve.target import COARSE, FINE, MIDDLE, Target
-from linkwright.synthesis.free_curve.topology import Design, Draw
+from linkwright.synthesis.free_curve.topology import Design, Draw, shaken, with_dyad, with_joint
 
 #: Most joints of a four-bar, six-bar, eight-bar and of any linkage.
 JOINTS = (5, 8, 10, 12)

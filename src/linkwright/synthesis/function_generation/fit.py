@@ -7,15 +7,21 @@ only the linkage's own numbers.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from linkwright.core.arrays import Flags, Floats, Integers
-from linkwright.core.progress import Progress
-from linkwright.synthesis.function_generation.generators import Generator, TurningFourBar
+from linkwright.core.arrays import Complexes, Flags, Floats, Integers
+from linkwright.core.progress import Progress, current_progress, part_of
+from linkwright.core.quantity import number
+from linkwright.synthesis.candidates import TYPES, grashof_types
+from linkwright.synthesis.function_generation.exact import Freudenstein
+from linkwright.synthesis.function_generation.generators import Generator, Run, TurningFourBar
 from linkwright.synthesis.least_squares import minimise, with_differences
-from linkwright.synthesis.result import Candidate
+from linkwright.synthesis.names import FUNCTION_NONE, TYPE_NAMES
+from linkwright.synthesis.result import Candidate, Derivation, Synthesis, SynthesisError, different, ranked
+from linkwright.words import _
 
 TRIED, SELECTED, LEFT, STEPS = 12_000, 240, 24, 120
 #: Residual per unit of what is missing to assemble a position.
@@ -25,6 +31,43 @@ PENALTY = 3.0
 HELD, MARGIN = 48, 1e-3
 #: Residual per unit of sin² that is missing: the next one where no optimum has the angle with the one before.
 HOLDS = (5.0, 40.0, 300.0)
+#: Inputs at which the output is drawn.
+FINE = 181
+#: Candidates whose points differ less than this share of their size are one.
+DISTINCT = 0.01
+#: What to do where no linkage is good enough, by how it was found.
+HINTS = {
+    "exact": _('give "least_squares: true", which allows a small error'),
+    "equation": _('leave out "equation_error", which allows other link lengths'),
+    "fitted": _("leave more numbers free or change the function"),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class FunctionDerivation(Derivation):
+    """What a function generator was found by.
+
+    ``method``: ``freudenstein`` (three pairs), ``zero_angle`` (four, one zero angle from a determinant),
+    ``burmester`` (five), ``equation`` (least squares in Freudenstein's equation), ``search`` (minimum structural
+    error); ``zeros``: zero angles of input and output, rad, the free ones as found; ``free``: which were free;
+    ``frame``, m; ``equation``: that of the first candidate; ``harmonics`` (5,) of the determinant; ``kind``: the
+    linkage; ``unknowns``, ``starts``, ``optima``: of a search; ``unrounded``: lengths a, b, c, d (m) of the first
+    candidate before they were rounded.
+    """
+
+    method: str
+    inputs: Floats
+    outputs: Floats
+    zeros: tuple[float, float]
+    free: tuple[bool, bool]
+    frame: float
+    kind: str = "four_bar"
+    equation: Freudenstein | None = None
+    harmonics: Complexes | None = None
+    unknowns: int = 0
+    starts: int = 0
+    optima: int = 0
+    unrounded: tuple[float, float, float, float] | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,3 +198,140 @@ def fit(
 def column_of_zero(generator: Generator) -> int:
     """Column of the input's zero angle among a generator's numbers."""
     return 4 if generator.name == "geared_five_bar" else 3
+
+
+def fitted(
+    generator: Generator, demand: FunctionDemand, quality: Quality, frame: float, count: int, seed: int
+) -> Synthesis:
+    """The linkages of minimum structural error that have the quality; raises SynthesisError where none has."""
+    scale = frame if generator.output_is_angle else demand.size
+    made: list[Candidate] = []
+    good: list[Candidate] = []
+    rounds = 1 if quality == Quality() else len(HOLDS)
+    for k, hold in enumerate(HOLDS[:rounds]):
+        tell = part_of(current_progress(), k, rounds)
+        x, signs, _ = fit(generator, demand, quality, hold, np.random.default_rng(seed), tell)
+        found = [generator_candidate(generator, demand, x[i : i + 1], signs[i : i + 1], scale) for i in range(len(x))]
+        made += [each for each in found if each is not None]
+        good = [each for each in made if quality.of(each)[0]]
+        if good:
+            break
+    if not made:
+        raise SynthesisError(FUNCTION_NONE.format(linkage=TYPE_NAMES[generator.name]))
+    extent = 0.0 if generator.output_is_angle else float(np.ptp(demand.outputs))
+    order = ranked(good, demand.size, extent) if good else _by_quality(made, quality)
+    chosen = different(order, DISTINCT * scale)[:count]
+    name = "angle" if generator.output_is_angle else "length"
+    target = np.stack([demand.inputs, demand.outputs])
+    derivation = _searched(generator, demand, chosen[0], frame, len(made)) if chosen else None
+    result = Synthesis("function", chosen, name, target, {"optima": len(made)}, extent=extent, derivation=derivation)
+    if not good:
+        raise unmet_quality(quality, result, generator.name, "fitted")
+    return result
+
+
+def _searched(
+    generator: Generator, demand: FunctionDemand, best: Candidate, frame: float, optima: int
+) -> FunctionDerivation:
+    """How a linkage of minimum structural error was found."""
+    free = (demand.input_zero is None, demand.output_zero is None)
+    unknowns = generator.sample(np.random.default_rng(0), 1).shape[1] - (not free[0])
+    zeros = best.values["input_zero [rad]"], demand.output_zero or 0.0
+    return FunctionDerivation(
+        "search",
+        demand.inputs,
+        demand.outputs,
+        zeros,
+        free,
+        frame,
+        generator.name,
+        unknowns=unknowns,
+        starts=TRIED,
+        optima=optima,
+    )
+
+
+def _by_quality(made: list[Candidate], quality: Quality) -> tuple[Candidate, ...]:
+    """Those without defects first, then by what they have of the quality."""
+    return tuple(sorted(made, key=lambda each: (bool(each.defects), -quality.of(each)[1])))
+
+
+def generator_candidate(
+    generator: Generator, demand: FunctionDemand, x: Floats, signs: Floats, scale: float
+) -> Candidate | None:
+    """One optimum with its facts over the full range; None where it does not assemble at the pairs."""
+    unit = 1.0 if generator.output_is_angle else demand.size
+    at = generator.run(x, signs, demand.inputs)
+    if at.missing.max() > 0:
+        return None
+    off, constant, factor = demand.matched(at.output * unit)
+    fine = np.linspace(demand.inputs.min(), demand.inputs.max(), FINE)
+    between = generator.run(x, signs, fine)
+    sine_of_turn = min(generator.sines(x, signs, 0.0, generator.turn()))
+    turns = sine_of_turn > 0
+    sine = sine_of_turn if turns else min(generator.sines(x, signs, demand.inputs.min(), demand.inputs.max()))
+    steps = np.diff(demand.inputs)
+    monotone = bool((steps >= 0).all() or (steps <= 0).all())
+    defects = (() if sine > 0 else ("circuit",)) + (() if monotone else ("order",))
+    points = {name: complex(places[0, 0]) * scale for name, places in at.points.items()}
+    linkage = generator.linkage(points, turns)
+    if not turns:
+        low, high = demand.inputs.min() - demand.inputs[0], demand.inputs.max() - demand.inputs[0]
+        linkage = replace(linkage, span=(linkage.start + low, linkage.start + high))
+    curve = np.stack([fine, between.output[0] * unit * factor[0] + constant[0]])
+    lengths = np.array(list(linkage.lengths().values()))
+    zero = float(np.angle(at.points["A"][0, 0]) - demand.inputs[0])
+    values = {
+        "input_zero [rad]": (zero + math.pi) % (2 * math.pi) - math.pi,
+        "output_constant": float(constant[0]),
+        "scale": float(factor[0]),
+    }
+    return Candidate(
+        linkage,
+        float(np.sqrt((off**2).mean())),
+        _type(generator, at),
+        defects,
+        turns,
+        float(np.arcsin(min(sine, 1.0))),
+        float(lengths.max() / lengths.min()),
+        worst=float(np.abs(off).max()),
+        curve=curve,
+        values=values,
+        positions={name: places[0] * scale for name, places in at.points.items()},
+        deviations=off[0],
+    )
+
+
+def _type(generator: Generator, run: Run) -> str:
+    if generator.name not in ("four_bar", "slider_crank"):
+        return generator.name
+    if generator.name == "slider_crank":
+        crank, rod = (abs(run.points[b][0, 0] - run.points[a][0, 0]) for a, b in (("O1", "A"), ("A", "B")))
+        return "slider_crank" if crank + abs(run.points["B"][0, 0].imag) <= rod else "slider_rocker"
+    o1, a, b, o2 = (run.points[name][0, 0] for name in ("O1", "A", "B", "O2"))
+    return TYPES[int(grashof_types(np.array([[abs(a - o1)], [abs(b - a)], [abs(b - o2)], [abs(o2 - o1)]]))[0])]
+
+
+def unmet_quality(quality: Quality, nearest: Synthesis, linkage: str, how: str) -> SynthesisError:
+    """The refusal of what no linkage has that was found: an input that turns, or the transmission angle."""
+    turned = quality.of(nearest.best)[1] > 0
+    rule = (
+        _(
+            "no {linkage} was found with a smallest transmission angle of {asked} deg; the largest "
+            "found is {most} deg (the nearest solution is shown): ask for less, or {hint}",
+            code="synthesize.function.transmission",
+        )
+        if turned
+        else _(
+            "no {linkage} was found whose input turns fully (the nearest solution is shown); leave "
+            '"turning" out, or {hint}',
+            code="synthesize.function.no_turn",
+        )
+    )
+    message = rule.format(
+        linkage=TYPE_NAMES[linkage],
+        asked=number(quality.transmission, "angle", 5),
+        most=f"{math.floor(100 * math.degrees(nearest.best.transmission_angle)) / 100:g}",
+        hint=HINTS[how],
+    )
+    return SynthesisError(message, nearest)

@@ -4,76 +4,47 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arguments import real
 from linkwright.core.arrays import Complexes, Floats
-from linkwright.core.progress import current_progress, part_of
-from linkwright.core.quantity import number
-from linkwright.synthesis.assessment import assess_four_bars
-from linkwright.synthesis.build import four_bar_candidate
+from linkwright.synthesis.candidates import assess_four_bars, four_bar_candidate
 from linkwright.synthesis.function_generation.exact import Freudenstein, families, freudenstein, harmonics
-from linkwright.synthesis.function_generation.fit import HOLDS, TRIED, FunctionDemand, Quality, fit
-from linkwright.synthesis.function_generation.generators import KINDS, GearedFiveBar, Generator, Run, TurningFourBar
-from linkwright.synthesis.merit import merit
-from linkwright.synthesis.names import DEFECTS, TYPE_NAMES
-from linkwright.synthesis.requirements.slider_crank import multiple, positive
-from linkwright.synthesis.result import (
+from linkwright.synthesis.function_generation.fit import (
+    DISTINCT,
+    FINE,
+    FunctionDemand,
+    FunctionDerivation,
+    Quality,
+    fitted,
+    generator_candidate,
+    unmet_quality,
+)
+from linkwright.synthesis.function_generation.generators import KINDS, GearedFiveBar, TurningFourBar
+from linkwright.synthesis.names import (
+    DEFECTS,
     FUNCTION_NONE,
     NOT_POSITIVE,
     NOT_WITH,
     ONLY_WITH,
     TOO_ROUNDED,
+    TYPE_NAMES,
+)
+from linkwright.synthesis.requirements.slider_crank import multiple, positive
+from linkwright.synthesis.result import (
     Candidate,
-    Derivation,
     Synthesis,
     SynthesisError,
     allowed_transmission,
     different,
+    merit,
     ranked,
     require_integers,
 )
 from linkwright.words import _
-
-FINE = 181
-#: Candidates whose points differ less than this share of their size are one.
-DISTINCT = 0.01
-#: What to do where no linkage is good enough, by how it was found.
-HINTS = {
-    "exact": _('give "least_squares: true", which allows a small error'),
-    "equation": _('leave out "equation_error", which allows other link lengths'),
-    "fitted": _("leave more numbers free or change the function"),
-}
-
-
-@dataclass(frozen=True, eq=False)
-class FunctionDerivation(Derivation):
-    """What a function generator was found by.
-
-    ``method``: ``freudenstein`` (three pairs), ``zero_angle`` (four, one zero angle from a determinant),
-    ``burmester`` (five), ``equation`` (least squares in Freudenstein's equation), ``search`` (minimum structural
-    error); ``zeros``: zero angles of input and output, rad, the free ones as found; ``free``: which were free;
-    ``frame``, m; ``equation``: that of the first candidate; ``harmonics`` (5,) of the determinant; ``kind``: the
-    linkage; ``unknowns``, ``starts``, ``optima``: of a search; ``unrounded``: lengths a, b, c, d (m) of the first
-    candidate before they were rounded.
-    """
-
-    method: str
-    inputs: Floats
-    outputs: Floats
-    zeros: tuple[float, float]
-    free: tuple[bool, bool]
-    frame: float
-    kind: str = "four_bar"
-    equation: Freudenstein | None = None
-    harmonics: Complexes | None = None
-    unknowns: int = 0
-    starts: int = 0
-    optima: int = 0
-    unrounded: tuple[float, float, float, float] | None = None
 
 
 def function_generation(
@@ -151,7 +122,7 @@ def function_generation(
             generator = TurningFourBar(transmission_angle)
         if linkage == "geared_five_bar" and gear_ratio is not None:
             generator = GearedFiveBar(gear_ratio)
-        found = _fitted(generator, demand, quality, frame, count, seed)
+        found = fitted(generator, demand, quality, frame, count, seed)
     return found if rounding is None else _rounded(found, demand, quality, rounding)
 
 
@@ -192,7 +163,7 @@ def _of_multiples(each: Candidate, found: Synthesis, demand: FunctionDemand, rou
     o2, pin, joint = (each.linkage.points[name] for name in ("O2", "A", "B"))
     side = np.sign(((o2 - pin).conjugate() * (joint - pin)).imag)
     rounded = replace(demand, input_zero=zero, output_zero=output)
-    return _candidate(KINDS["four_bar"](), rounded, x, np.array([[side]]), frame)
+    return generator_candidate(KINDS["four_bar"](), rounded, x, np.array([[side]]), frame)
 
 
 def _applicable(
@@ -306,7 +277,7 @@ def _exact(demand: FunctionDemand, quality: Quality, frame: float, count: int, s
     equation = None if equation is None else equation[usable]
     target = np.stack([demand.inputs, demand.outputs])
     if not len(zeros):
-        nearest = _fitted(KINDS["four_bar"](), demand, Quality(), frame, count, seed)
+        nearest = fitted(KINDS["four_bar"](), demand, Quality(), frame, count, seed)
         error = f"{nearest.best.error:.4g}"
         raise SynthesisError(
             _(
@@ -356,7 +327,7 @@ def _exact(demand: FunctionDemand, quality: Quality, frame: float, count: int, s
             result,
         )
     if not good:
-        raise _short(quality, result, "four_bar", "exact")
+        raise unmet_quality(quality, result, "four_bar", "exact")
     return result
 
 
@@ -387,7 +358,7 @@ def _by_equation(demand: FunctionDemand, quality: Quality, frame: float) -> Synt
     generator = KINDS["four_bar"]()
     start = zeros[0] + (np.pi if a < 0 else 0.0)
     x = np.array([[math.log(abs(a)), math.log(b), math.log(abs(c)), start]])
-    sides = [_candidate(generator, fixed_zeros, x, np.array([[side]]), frame) for side in (-1.0, 1.0)]
+    sides = [generator_candidate(generator, fixed_zeros, x, np.array([[side]]), frame) for side in (-1.0, 1.0)]
     chosen = ranked([each for each in sides if each is not None], demand.size)[:1]
     if not chosen:
         raise SynthesisError(FUNCTION_NONE.format(linkage=TYPE_NAMES["four_bar"]))
@@ -397,33 +368,8 @@ def _by_equation(demand: FunctionDemand, quality: Quality, frame: float) -> Synt
     target = np.stack([demand.inputs, demand.outputs])
     result = Synthesis("function", chosen, "angle", target, derivation=derivation)
     if not quality.of(chosen[0])[0]:
-        raise _short(quality, result, "four_bar", "equation")
+        raise unmet_quality(quality, result, "four_bar", "equation")
     return result
-
-
-def _short(quality: Quality, nearest: Synthesis, linkage: str, how: str) -> SynthesisError:
-    """The refusal of what no linkage has that was found: an input that turns, or the transmission angle."""
-    turned = quality.of(nearest.best)[1] > 0
-    rule = (
-        _(
-            "no {linkage} was found with a smallest transmission angle of {asked} deg; the largest "
-            "found is {most} deg (the nearest solution is shown): ask for less, or {hint}",
-            code="synthesize.function.transmission",
-        )
-        if turned
-        else _(
-            "no {linkage} was found whose input turns fully (the nearest solution is shown); leave "
-            '"turning" out, or {hint}',
-            code="synthesize.function.no_turn",
-        )
-    )
-    message = rule.format(
-        linkage=TYPE_NAMES[linkage],
-        asked=number(quality.transmission, "angle", 5),
-        most=f"{math.floor(100 * math.degrees(nearest.best.transmission_angle)) / 100:g}",
-        hint=HINTS[how],
-    )
-    return SynthesisError(message, nearest)
 
 
 def _four_bar_curve(demand: FunctionDemand, pin: Complexes, joint: Complexes, zero: float) -> Floats:
@@ -442,116 +388,3 @@ def _four_bar_curve(demand: FunctionDemand, pin: Complexes, joint: Complexes, ze
 def _small(angle: float) -> float:
     """An angle within half a turn of zero, where it is a rounding of full turns; else half turns are taken out."""
     return (angle + math.pi / 2) % math.pi - math.pi / 2
-
-
-def _fitted(
-    generator: Generator, demand: FunctionDemand, quality: Quality, frame: float, count: int, seed: int
-) -> Synthesis:
-    scale = frame if generator.output_is_angle else demand.size
-    made: list[Candidate] = []
-    good: list[Candidate] = []
-    rounds = 1 if quality == Quality() else len(HOLDS)
-    for k, hold in enumerate(HOLDS[:rounds]):
-        tell = part_of(current_progress(), k, rounds)
-        x, signs, _ = fit(generator, demand, quality, hold, np.random.default_rng(seed), tell)
-        found = [_candidate(generator, demand, x[i : i + 1], signs[i : i + 1], scale) for i in range(len(x))]
-        made += [each for each in found if each is not None]
-        good = [each for each in made if quality.of(each)[0]]
-        if good:
-            break
-    if not made:
-        raise SynthesisError(FUNCTION_NONE.format(linkage=TYPE_NAMES[generator.name]))
-    extent = 0.0 if generator.output_is_angle else float(np.ptp(demand.outputs))
-    order = ranked(good, demand.size, extent) if good else _by_quality(made, quality)
-    chosen = different(order, DISTINCT * scale)[:count]
-    name = "angle" if generator.output_is_angle else "length"
-    target = np.stack([demand.inputs, demand.outputs])
-    derivation = _searched(generator, demand, chosen[0], frame, len(made)) if chosen else None
-    result = Synthesis("function", chosen, name, target, {"optima": len(made)}, extent=extent, derivation=derivation)
-    if not good:
-        raise _short(quality, result, generator.name, "fitted")
-    return result
-
-
-def _searched(
-    generator: Generator, demand: FunctionDemand, best: Candidate, frame: float, optima: int
-) -> FunctionDerivation:
-    """How a linkage of minimum structural error was found."""
-    free = (demand.input_zero is None, demand.output_zero is None)
-    unknowns = generator.sample(np.random.default_rng(0), 1).shape[1] - (not free[0])
-    zeros = best.values["input_zero [rad]"], demand.output_zero or 0.0
-    return FunctionDerivation(
-        "search",
-        demand.inputs,
-        demand.outputs,
-        zeros,
-        free,
-        frame,
-        generator.name,
-        unknowns=unknowns,
-        starts=TRIED,
-        optima=optima,
-    )
-
-
-def _by_quality(made: list[Candidate], quality: Quality) -> tuple[Candidate, ...]:
-    """Those without defects first, then by what they have of the quality."""
-    return tuple(sorted(made, key=lambda each: (bool(each.defects), -quality.of(each)[1])))
-
-
-def _candidate(
-    generator: Generator, demand: FunctionDemand, x: Floats, signs: Floats, scale: float
-) -> Candidate | None:
-    """One optimum with its facts over the full range; None where it does not assemble at the pairs."""
-    unit = 1.0 if generator.output_is_angle else demand.size
-    at = generator.run(x, signs, demand.inputs)
-    if at.missing.max() > 0:
-        return None
-    off, constant, factor = demand.matched(at.output * unit)
-    fine = np.linspace(demand.inputs.min(), demand.inputs.max(), FINE)
-    between = generator.run(x, signs, fine)
-    sine_of_turn = min(generator.sines(x, signs, 0.0, generator.turn()))
-    turns = sine_of_turn > 0
-    sine = sine_of_turn if turns else min(generator.sines(x, signs, demand.inputs.min(), demand.inputs.max()))
-    steps = np.diff(demand.inputs)
-    monotone = bool((steps >= 0).all() or (steps <= 0).all())
-    defects = (() if sine > 0 else ("circuit",)) + (() if monotone else ("order",))
-    points = {name: complex(places[0, 0]) * scale for name, places in at.points.items()}
-    linkage = generator.linkage(points, turns)
-    if not turns:
-        low, high = demand.inputs.min() - demand.inputs[0], demand.inputs.max() - demand.inputs[0]
-        linkage = replace(linkage, span=(linkage.start + low, linkage.start + high))
-    curve = np.stack([fine, between.output[0] * unit * factor[0] + constant[0]])
-    lengths = np.array(list(linkage.lengths().values()))
-    zero = float(np.angle(at.points["A"][0, 0]) - demand.inputs[0])
-    values = {
-        "input_zero [rad]": (zero + math.pi) % (2 * math.pi) - math.pi,
-        "output_constant": float(constant[0]),
-        "scale": float(factor[0]),
-    }
-    return Candidate(
-        linkage,
-        float(np.sqrt((off**2).mean())),
-        _type(generator, at),
-        defects,
-        turns,
-        float(np.arcsin(min(sine, 1.0))),
-        float(lengths.max() / lengths.min()),
-        worst=float(np.abs(off).max()),
-        curve=curve,
-        values=values,
-        positions={name: places[0] * scale for name, places in at.points.items()},
-        deviations=off[0],
-    )
-
-
-def _type(generator: Generator, run: Run) -> str:
-    if generator.name not in ("four_bar", "slider_crank"):
-        return generator.name
-    if generator.name == "slider_crank":
-        crank, rod = (abs(run.points[b][0, 0] - run.points[a][0, 0]) for a, b in (("O1", "A"), ("A", "B")))
-        return "slider_crank" if crank + abs(run.points["B"][0, 0].imag) <= rod else "slider_rocker"
-    from linkwright.synthesis.assessment import TYPES, grashof_types
-
-    o1, a, b, o2 = (run.points[name][0, 0] for name in ("O1", "A", "B", "O2"))
-    return TYPES[int(grashof_types(np.array([[abs(a - o1)], [abs(b - a)], [abs(b - o2)], [abs(o2 - o1)]]))[0])]

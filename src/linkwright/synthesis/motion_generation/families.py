@@ -12,6 +12,7 @@ Source: Bottema and Roth 1979, Theoretical Kinematics, ch. 8; McCarthy and Soh 2
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -22,6 +23,7 @@ from linkwright.synthesis.least_squares import minimise
 from linkwright.synthesis.motion_generation.burmester import (
     FAR,
     Dyads,
+    centres,
     circles,
     five_poses,
     join,
@@ -29,9 +31,17 @@ from linkwright.synthesis.motion_generation.burmester import (
     relative_poses,
     sliders,
 )
+from linkwright.synthesis.names import POINTS
+from linkwright.synthesis.path_generation.generate import complex_points
+from linkwright.synthesis.result import SynthesisError
+from linkwright.words import _
 
 LINES, GRID, SPREAD = 60, 18, 9
 SUBSETS, FIT_STEPS = 60, 60
+#: Dyads of a family that are paired.
+MOST_DYADS = 360
+#: Body points of the parallelograms for poses that do not turn.
+AROUND: Complexes = np.array([0, 1, 1j, -1, -1j, 1 + 1j], complex)
 
 
 @dataclass(frozen=True)
@@ -240,3 +250,84 @@ def _different(x: Complexes, size: float) -> Integers:
         if len(distinct) == 24:
             break
     return np.array(distinct, dtype=np.int64)
+
+
+def all_dyads(
+    p: Complexes,
+    phi: Floats,
+    window: Window,
+    fixed: Sequence[tuple[float, float]],
+    moving: Sequence[tuple[float, float]],
+    line: Sequence[Sequence[float]] | None,
+) -> tuple[Dyads, Floats]:
+    """Dyads and the squared errors of their lengths."""
+    if line is not None:
+        if len(p) not in (3, 4):
+            raise SynthesisError(
+                _(
+                    "{poses} poses do not fit pivots on a line; give three or four poses",
+                    code="synthesize.motion.line",
+                    poses=len(p),
+                )
+            )
+        found = _on_line(p, phi, line)
+        return found, np.zeros(len(found))
+    if fixed or moving:
+        if len(p) > 3:
+            raise SynthesisError(
+                _(
+                    "{poses} poses leave no pivot free to be given; give pivots for two or three poses",
+                    code="synthesize.motion.pivots",
+                    poses=len(p),
+                )
+            )
+        d, e = relative_poses(p, phi)
+        pivots = [_with_centre(p, phi, complex(place)) for place in complex_points(fixed)] if fixed else []
+        pivots += [complex(place) - p[0] for place in complex_points(moving)] if moving else []
+        named = circles(np.array(pivots), p, d, e)
+        rest = dyads(p, phi, window) if len(pivots) == 1 else named[:0]
+        found = join(named, rest)
+        return found, np.zeros(len(found))
+    if len(p) > 5:
+        return fitted(p, phi, np.random.default_rng(0))
+    if len(p) > 3 and np.abs(np.exp(1j * (phi - phi[0])) - 1).max() <= 1e-9:
+        found = circles(scale_of(p) * AROUND, p, *relative_poses(p, phi))
+        return found, np.zeros(len(found))
+    found = dyads(p, phi, window)
+    thin = np.unique(np.linspace(0, len(found) - 1, min(len(found), MOST_DYADS)).astype(int))
+    found = found[thin] if len(found) else found
+    return found, np.zeros(len(found))
+
+
+def _with_centre(p: Complexes, phi: Floats, centre: complex) -> complex:
+    """The body point whose circle about the given centre passes its positions, by inversion."""
+    back = (centre - p) * np.exp(-1j * (phi - phi[0]))
+    if len(p) == 2:
+        return complex(back.mean() + 0.6j * (back[1] - back[0]))
+    return complex(centres(back[:1], (back - back[0])[None])[0])
+
+
+def _on_line(p: Complexes, phi: Floats, ends: Sequence[Sequence[float]]) -> Dyads:
+    """Dyads of three or four poses whose fixed pivots lie on the stretch between two places."""
+    first, last = two_points(ends)
+    middle, half = 0.5 * (first + last) - p[0], 0.5 * (last - first)
+    if len(p) == 3:
+        pivots = middle + half * np.linspace(-1, 1, 48)
+    else:
+        d, phi_i = inverse_poses(p, phi)
+        pivots = on_lines(d, np.exp(1j * phi_i), np.array([middle]), np.array([half]))
+    points = np.array([_with_centre(p, phi, complex(place + p[0])) for place in pivots])
+    return circles(points, p, *relative_poses(p, phi)) if len(points) else Dyads(*4 * (np.empty(0, complex),))
+
+
+def two_points(points: Sequence[Sequence[float]]) -> tuple[complex, complex]:
+    """Two given places; raises SynthesisError for another number of them."""
+    found = complex_points(points)
+    if len(found) != 2:
+        raise SynthesisError(POINTS)
+    return complex(found[0]), complex(found[1])
+
+
+def scale_of(p: Complexes) -> float:
+    """Largest distance of a place from the middle of all, m."""
+    return float(np.abs(p - p.mean()).max())

@@ -11,39 +11,50 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Complexes, Flags, Floats, Integers
-from linkwright.synthesis.assessment import Assessment, assess_four_bars, assess_slider_cranks
-from linkwright.synthesis.build import candidate, four_bar_candidate, path_of_four_bar, slider_crank, working_span
-from linkwright.synthesis.merit import extent_of, merit
-from linkwright.synthesis.motion_generation.burmester import Dyads, centres, circles, five_poses, join, relative_poses
+from linkwright.synthesis.candidates import (
+    Assessment,
+    assess_four_bars,
+    assess_slider_cranks,
+    candidate,
+    four_bar_candidate,
+    path_of_four_bar,
+    slider_crank,
+    working_span,
+)
+from linkwright.synthesis.motion_generation.burmester import Dyads, circles, five_poses, relative_poses
 from linkwright.synthesis.motion_generation.families import (
+    AROUND,
     LINES,
     Window,
+    all_dyads,
     circle_points,
     cubic_coefficients,
-    dyads,
     fitted,
     held,
     inverse_poses,
-    on_lines,
+    scale_of,
+    two_points,
     usual_window,
 )
 from linkwright.synthesis.motion_generation.mixed_poses import counted_solutions, mixed_solutions
-from linkwright.synthesis.names import DEFECTS
-from linkwright.synthesis.path_generation.generate import complex_points
-from linkwright.synthesis.requirements.slider_crank import positive
-from linkwright.synthesis.result import (
+from linkwright.synthesis.names import (
+    DEFECTS,
     LINK_RATIO_UNMET,
     MOTION_FITTED,
     MOTION_NO_MOVABLE,
     MOTION_NO_PAIRS,
     MOTION_POSES,
     NOT_WITH,
-    POINTS,
+)
+from linkwright.synthesis.requirements.slider_crank import positive
+from linkwright.synthesis.result import (
     Candidate,
     Derivation,
     Synthesis,
     SynthesisError,
     different,
+    extent_of,
+    merit,
     merits,
     ranked,
     ranking,
@@ -53,11 +64,8 @@ from linkwright.words import _
 
 Pose = Sequence[float]
 
-MOST_DYADS = 360
 #: Longest over shortest link up to which candidates are equally good where no ratio is demanded.
 USUAL_RATIO = 10.0
-#: Body points of the parallelograms for poses that do not turn.
-AROUND: Complexes = np.array([0, 1, 1j, -1, -1j, 1 + 1j], complex)
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,7 +149,7 @@ def _derivation(p: Complexes, phi: Floats, link_ratio: float) -> MotionDerivatio
         return MotionDerivation(p, phi, link_ratio, points=z, centres=c + p[0], real=real, slides=slides)
     if len(p) == 4:
         d_inverse, phi_inverse = inverse_poses(p, phi)
-        size = _scale(p)
+        size = scale_of(p)
         both = [cubic_coefficients(d, e, size), cubic_coefficients(d_inverse, np.exp(1j * phi_inverse), size)]
         return MotionDerivation(p, phi, link_ratio, size=size, circle_curve=both[0], centre_curve=both[1])
     return MotionDerivation(p, phi, link_ratio)
@@ -180,7 +188,7 @@ def _guided(
         return _mixed(p, phi, link_ratio, count)
     _special(p, phi, link_ratio, count)
     window = usual_window(p) if within is None else _window(within)
-    found, error = _all_dyads(p, phi, window, fixed_pivots, moving_pivots, pivot_line)
+    found, error = all_dyads(p, phi, window, fixed_pivots, moving_pivots, pivot_line)
     counts = {"dyads": len(found), "sliders": int(found.slides.sum())}
     if len(found) < 2 and len(p) == 5:
         raise SynthesisError(
@@ -220,15 +228,8 @@ def _guided(
 
 def _window(corners: tuple[tuple[float, float], tuple[float, float]]) -> Window:
     """The window between two corners."""
-    first, last = _two_points(corners)
+    first, last = two_points(corners)
     return Window(first, last)
-
-
-def _two_points(points: Sequence[Sequence[float]]) -> tuple[complex, complex]:
-    found = complex_points(points)
-    if len(found) != 2:
-        raise SynthesisError(POINTS)
-    return complex(found[0]), complex(found[1])
 
 
 def _read(poses: ArrayLike) -> tuple[Complexes, Floats]:
@@ -261,7 +262,7 @@ def _read(poses: ArrayLike) -> tuple[Complexes, Floats]:
 def _special(p: Complexes, phi: Floats, link_ratio: float, count: int) -> None:
     """Raises SynthesisError for poses that one pin or slide guides, or that do not turn and lie on no circle."""
     d, e = relative_poses(p, phi)
-    size = _scale(p)
+    size = scale_of(p)
     turns = np.abs(e - 1).max() > 1e-9
     if turns and len(p) > 2:
         pole = complex(np.linalg.lstsq((e - 1)[:, None], -d, rcond=None)[0][0])
@@ -338,7 +339,7 @@ def _mixed(p: Complexes, phi: Floats, link_ratio: float, count: int) -> Synthesi
     for angles, pair, squares in mixed_solutions(p, phi) if every is None or not every[0] else every[0]:
         for first, second in ((0, 1), (1, 0)):
             made += _pairs(pair[np.array([first, second])], np.array([squares, 0.0]), p, angles, link_ratio, 1)
-    size = _scale(p)
+    size = scale_of(p)
     chosen = different(ranked(made, size, extent_of(p)), 0.02 * size)[:count]
     if not chosen:
         raise SynthesisError(MOTION_NO_PAIRS)
@@ -369,81 +370,13 @@ def _mixed(p: Complexes, phi: Floats, link_ratio: float, count: int) -> Synthesi
     return result
 
 
-def _all_dyads(
-    p: Complexes,
-    phi: Floats,
-    window: Window,
-    fixed: Sequence[tuple[float, float]],
-    moving: Sequence[tuple[float, float]],
-    line: Sequence[Sequence[float]] | None,
-) -> tuple[Dyads, Floats]:
-    """Dyads and the squared errors of their lengths."""
-    if line is not None:
-        if len(p) not in (3, 4):
-            raise SynthesisError(
-                _(
-                    "{poses} poses do not fit pivots on a line; give three or four poses",
-                    code="synthesize.motion.line",
-                    poses=len(p),
-                )
-            )
-        found = _on_line(p, phi, line)
-        return found, np.zeros(len(found))
-    if fixed or moving:
-        if len(p) > 3:
-            raise SynthesisError(
-                _(
-                    "{poses} poses leave no pivot free to be given; give pivots for two or three poses",
-                    code="synthesize.motion.pivots",
-                    poses=len(p),
-                )
-            )
-        d, e = relative_poses(p, phi)
-        pivots = [_with_centre(p, phi, complex(place)) for place in complex_points(fixed)] if fixed else []
-        pivots += [complex(place) - p[0] for place in complex_points(moving)] if moving else []
-        named = circles(np.array(pivots), p, d, e)
-        rest = dyads(p, phi, window) if len(pivots) == 1 else named[:0]
-        found = join(named, rest)
-        return found, np.zeros(len(found))
-    if len(p) > 5:
-        return fitted(p, phi, np.random.default_rng(0))
-    if len(p) > 3 and np.abs(np.exp(1j * (phi - phi[0])) - 1).max() <= 1e-9:
-        found = circles(_scale(p) * AROUND, p, *relative_poses(p, phi))
-        return found, np.zeros(len(found))
-    found = dyads(p, phi, window)
-    thin = np.unique(np.linspace(0, len(found) - 1, min(len(found), MOST_DYADS)).astype(int))
-    found = found[thin] if len(found) else found
-    return found, np.zeros(len(found))
-
-
-def _with_centre(p: Complexes, phi: Floats, centre: complex) -> complex:
-    """The body point whose circle about the given centre passes its positions, by inversion."""
-    back = (centre - p) * np.exp(-1j * (phi - phi[0]))
-    if len(p) == 2:
-        return complex(back.mean() + 0.6j * (back[1] - back[0]))
-    return complex(centres(back[:1], (back - back[0])[None])[0])
-
-
-def _on_line(p: Complexes, phi: Floats, ends: Sequence[Sequence[float]]) -> Dyads:
-    """Dyads of three or four poses whose fixed pivots lie on the stretch between two places."""
-    first, last = _two_points(ends)
-    middle, half = 0.5 * (first + last) - p[0], 0.5 * (last - first)
-    if len(p) == 3:
-        pivots = middle + half * np.linspace(-1, 1, 48)
-    else:
-        d, phi_i = inverse_poses(p, phi)
-        pivots = on_lines(d, np.exp(1j * phi_i), np.array([middle]), np.array([half]))
-    points = np.array([_with_centre(p, phi, complex(place + p[0])) for place in pivots])
-    return circles(points, p, *relative_poses(p, phi)) if len(points) else Dyads(*4 * (np.empty(0, complex),))
-
-
 def _pairs(
     found: Dyads, error: Floats, p: Complexes, phi: Floats, link_ratio: float, count: int
 ) -> tuple[Candidate, ...]:
     """The best pairs: the first dyad a crank, the second a crank or a slider."""
     pins = np.flatnonzero(~found.slides)
     first, second = (each.ravel() for each in np.meshgrid(pins, np.arange(len(found)), indexing="ij"))
-    separated = np.abs(found.point[first] - found.point[second]) > 1e-6 * _scale(p)
+    separated = np.abs(found.point[first] - found.point[second]) > 1e-6 * scale_of(p)
     first, second = first[separated], second[separated]
     rows: list[tuple[Assessment, Integers, Integers]] = []
     for slider in (False, True):
@@ -461,18 +394,14 @@ def _pairs(
     if not made:
         return ()
     error = np.array([each.error for each in made])
-    order = ranking(error, merits(made, extent_of(p)), sound, _scale(p))
-    return different(tuple(made[i] for i in order), 0.08 * _scale(p) if len(p) < 5 else 0.0)[:count]
-
-
-def _scale(p: Complexes) -> float:
-    return float(np.abs(p - p.mean()).max())
+    order = ranking(error, merits(made, extent_of(p)), sound, scale_of(p))
+    return different(tuple(made[i] for i in order), 0.08 * scale_of(p) if len(p) < 5 else 0.0)[:count]
 
 
 def _best(facts: Assessment, error: Floats, p: Complexes, link_ratio: float, count: int) -> list[int]:
     sound = facts.sound & (facts.ratio <= link_ratio)
     worth = merit(facts.transmission, facts.ratio, facts.longest, extent_of(p))
-    order = ranking(np.sqrt(error), worth, sound, _scale(p))
+    order = ranking(np.sqrt(error), worth, sound, scale_of(p))
     return [int(k) for k in order[: 30 * count]]
 
 

@@ -9,23 +9,19 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Complexes
-from linkwright.synthesis.assessment import assess_four_bars
-from linkwright.synthesis.build import four_bar_candidate, path_of_four_bar
-from linkwright.synthesis.crank_family import couplers
-from linkwright.synthesis.merit import extent_of
-from linkwright.synthesis.path_generation.demand import Demand
+from linkwright.synthesis.candidates import assess_four_bars, four_bar_candidate, path_of_four_bar
+from linkwright.synthesis.names import ONLY_WITH, PATH_ONE_PLACE, POINTS
+from linkwright.synthesis.path_generation.crank_family import Demand, couplers
 from linkwright.synthesis.path_generation.search import Found, search
 from linkwright.synthesis.requirements.slider_crank import positive
 from linkwright.synthesis.result import (
-    ONLY_WITH,
-    PATH_ONE_PLACE,
-    POINTS,
     Candidate,
     Derivation,
     Synthesis,
     SynthesisError,
     allowed_transmission,
     different,
+    extent_of,
     ranked,
     require_integers,
 )

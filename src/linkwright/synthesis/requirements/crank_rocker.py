@@ -15,19 +15,11 @@ import numpy as np
 
 from linkwright.core.arrays import Complexes, Flags
 from linkwright.core.quantity import number
-from linkwright.synthesis.assessment import Assessment, assess_four_bars
-from linkwright.synthesis.build import four_bar_candidate
+from linkwright.synthesis.candidates import Assessment, assess_four_bars, four_bar_candidate
 from linkwright.synthesis.linkage import Guide, Linkage
+from linkwright.synthesis.names import LINK_RATIO_UNMET, ONLY_WITH
 from linkwright.synthesis.requirements.slider_crank import angle_between_limits, not_negative, positive
-from linkwright.synthesis.result import (
-    LINK_RATIO_UNMET,
-    ONLY_WITH,
-    Candidate,
-    Derivation,
-    Synthesis,
-    SynthesisError,
-    require_integers,
-)
+from linkwright.synthesis.result import Candidate, Derivation, Synthesis, SynthesisError, require_integers
 from linkwright.words import _
 
 SAMPLES = 20_001

@@ -18,8 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
-from linkwright.synthesis.assessment import TYPES, Assessment, assess_four_bars
-from linkwright.synthesis.build import four_bar_candidate
+from linkwright.synthesis.candidates import TYPES, Assessment, assess_four_bars, four_bar_candidate
 from linkwright.synthesis.requirements.slider_crank import angle_between_limits, positive
 from linkwright.synthesis.result import Derivation, Synthesis, SynthesisError
 from linkwright.words import _

@@ -15,9 +15,9 @@ import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.quantity import number
-from linkwright.synthesis.crank_family import CrankFamily, couplers
 from linkwright.synthesis.function_generation.generators import Stephenson
 from linkwright.synthesis.linkage import Linkage
+from linkwright.synthesis.path_generation.crank_family import CrankFamily, couplers
 from linkwright.synthesis.requirements.slider_crank import positive
 from linkwright.synthesis.result import Candidate, Derivation, Synthesis, SynthesisError
 from linkwright.words import _

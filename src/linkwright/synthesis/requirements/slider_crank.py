@@ -15,16 +15,9 @@ import numpy as np
 
 from linkwright.core.arguments import real
 from linkwright.core.quantity import number
-from linkwright.synthesis.assessment import assess_slider_cranks
-from linkwright.synthesis.build import candidate, slider_crank
-from linkwright.synthesis.result import (
-    NOT_POSITIVE,
-    TOO_ROUNDED,
-    TRANSMISSION_RANGE,
-    Derivation,
-    Synthesis,
-    SynthesisError,
-)
+from linkwright.synthesis.candidates import assess_slider_cranks, candidate, slider_crank
+from linkwright.synthesis.names import NOT_POSITIVE, TOO_ROUNDED, TRANSMISSION_RANGE
+from linkwright.synthesis.result import Derivation, Synthesis, SynthesisError
 from linkwright.words import _
 
 ROUND = 1e-12

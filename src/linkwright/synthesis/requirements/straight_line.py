@@ -18,11 +18,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from linkwright.core.arrays import Complexes
-from linkwright.synthesis.assessment import assess_four_bars
-from linkwright.synthesis.build import coupler_unit, four_bar_candidate, path_of_four_bar
+from linkwright.synthesis.candidates import assess_four_bars, coupler_unit, four_bar_candidate, path_of_four_bar
 from linkwright.synthesis.linkage import Linkage
+from linkwright.synthesis.names import NOT_POSITIVE
 from linkwright.synthesis.requirements.slider_crank import positive
-from linkwright.synthesis.result import NOT_POSITIVE, Candidate, Derivation, Synthesis, SynthesisError
+from linkwright.synthesis.result import Candidate, Derivation, Synthesis, SynthesisError
 from linkwright.words import _
 
 SAMPLES = 361

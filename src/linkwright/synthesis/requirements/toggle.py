@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from linkwright.synthesis.build import slider_crank
+from linkwright.synthesis.candidates import slider_crank
 from linkwright.synthesis.requirements.slider_crank import positive
 from linkwright.synthesis.result import Candidate, Derivation, Synthesis, SynthesisError
 from linkwright.words import _

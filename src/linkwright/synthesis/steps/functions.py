@@ -15,11 +15,21 @@ from linkwright.equations.matrix import Entries
 from linkwright.equations.steps import Step
 from linkwright.equations.terms import TWO, Term, cosine, root, sine, symbol
 from linkwright.synthesis.function_generation.exact import Freudenstein
-from linkwright.synthesis.function_generation.generate import FunctionDerivation
+from linkwright.synthesis.function_generation.fit import FunctionDerivation
 from linkwright.synthesis.names import TYPE_NAMES
 from linkwright.synthesis.steps.closed_forms import rounded
-from linkwright.synthesis.steps.four_bars import coordinates, examine, four_bar_lengths
-from linkwright.synthesis.steps.writing import Writer, decimals, degrees, matrix, numbers, product, small
+from linkwright.synthesis.steps.writing import (
+    Writer,
+    coordinates,
+    decimals,
+    degrees,
+    examine,
+    four_bar_lengths,
+    matrix,
+    numbers,
+    product,
+    small,
+)
 from linkwright.words import _, pgettext
 
 #: Pairs up to which every equation is printed.

@@ -9,8 +9,7 @@ from linkwright.equations.terms import ONE, TWO, Pair, Term, arccosine, cosine, 
 from linkwright.synthesis.requirements.crank_rocker import CrankRockerDerivation
 from linkwright.synthesis.requirements.drag_link import DragLinkDerivation
 from linkwright.synthesis.steps.closed_forms import HALF_TURN, extreme_position_angle
-from linkwright.synthesis.steps.four_bars import examine, four_bar_lengths
-from linkwright.synthesis.steps.writing import Writer
+from linkwright.synthesis.steps.writing import Writer, examine, four_bar_lengths
 from linkwright.words import _, pgettext
 
 

@@ -17,8 +17,17 @@ from linkwright.equations.steps import Step
 from linkwright.equations.terms import Term, root, symbol
 from linkwright.synthesis.motion_generation.families import POWERS
 from linkwright.synthesis.motion_generation.generate import MotionDerivation
-from linkwright.synthesis.steps.four_bars import coordinates, examine
-from linkwright.synthesis.steps.writing import Writer, decimals, degrees, matrix, numbers, product, small
+from linkwright.synthesis.steps.writing import (
+    Writer,
+    coordinates,
+    decimals,
+    degrees,
+    examine,
+    matrix,
+    numbers,
+    product,
+    small,
+)
 from linkwright.words import Message, _, pgettext
 
 #: Most poses of which every pole is printed.

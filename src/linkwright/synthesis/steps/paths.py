@@ -16,8 +16,16 @@ from linkwright.synthesis.path_generation.generate import PathDerivation
 from linkwright.synthesis.requirements.dwell import DwellDerivation
 from linkwright.synthesis.requirements.straight_line import FOUR_BARS, StraightLineDerivation
 from linkwright.synthesis.result import error_texts
-from linkwright.synthesis.steps.four_bars import coordinates, examine, four_bar_lengths
-from linkwright.synthesis.steps.writing import Writer, decimals, degrees, numbers, small
+from linkwright.synthesis.steps.writing import (
+    Writer,
+    coordinates,
+    decimals,
+    degrees,
+    examine,
+    four_bar_lengths,
+    numbers,
+    small,
+)
 from linkwright.words import _, pgettext
 
 #: Points of a free curve that are shown.

@@ -1,15 +1,17 @@
-"""The worked solution of a synthesis, and which task writes which steps."""
+"""The worked solution of a synthesis: which task writes which steps, and the last one, the choice."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from importlib import import_module
 
+from linkwright.equations.steps import Step
 from linkwright.errors import speaker
-from linkwright.synthesis.result import Synthesis, SynthesisError, WorkedSynthesis
-from linkwright.synthesis.steps.choice import write_choice
-from linkwright.synthesis.steps.writing import Writer
-from linkwright.words import _
+from linkwright.synthesis.names import ERRORS, TYPE_NAMES, display_name
+from linkwright.synthesis.result import Synthesis, SynthesisError, WorkedSynthesis, defects_text, error_texts, merits
+from linkwright.synthesis.steps.writing import Writer, decimals, numbers
+from linkwright.words import _, pgettext
 
 #: Writers of steps by the name of the derivation's class, each in a module of this package.
 WRITERS: Mapping[str, str] = {
@@ -66,3 +68,127 @@ def worked(found: Synthesis, language: str = "en") -> WorkedSynthesis:
     pictures = {number: tuple(kinds) for number, kinds in writer.pictures.items()}
     steps = tuple(step for step in writer.steps if step.items)
     return WorkedSynthesis(say(TITLES[found.task]), steps, pictures)
+
+
+#: Tasks whose demands leave one linkage.
+DETERMINED = ("slider_crank", "quick_return", "toggle")
+#: Tasks whose candidates are ranked by defects, error and merit.
+RANKED = ("function", "motion", "path", "exact_path")
+#: Share by which errors must differ to count.
+EQUAL_ERRORS = 0.0025
+#: Why the first candidate was taken, by the task.
+REASONS = {
+    "crank_rocker": _(
+        "Candidate 1 has the largest smallest transmission angle of the family, {angle}°; the "
+        "others lie evenly over it."
+    ),
+    "drag_link": _(
+        "It has the largest smallest transmission angle that was found, {angle}°, with a ratio of links of {ratio}."
+    ),
+    "dwell": _(
+        "Candidate 1 is taken for its smallest deviation during the rest; its smallest "
+        "transmission angle is {angle}°."
+    ),
+    "straight_line": _("Candidate 1 is the smallest linkage that is straight enough."),
+    "free_curve": _(
+        "No candidate is beaten by another in error, number of links, transmission angle and "
+        "size at once; the first has the smallest error, or the fewest links among those that "
+        "are good enough. Its smallest transmission angle is {angle}°."
+    ),
+}
+
+
+def write_choice(w: Writer) -> None:
+    """Table of the candidates, their lengths, and the reason of the choice."""
+    step = w.step(_("Choice among the candidates"))
+    _facts(w, step)
+    _lengths(w, step)
+    step.say(_reason(w))
+
+
+def _facts(w: Writer, step: Step) -> None:
+    found, say = w.found, w.say
+    each = found.candidates
+    errors, worst = zip(*(error_texts(one) for one in each), strict=True)
+    columns = [
+        (say(_("no.")), numbers(len(each))),
+        (say(_("type")), [say(TYPE_NAMES[one.grashof_type]) for one in each]),
+        (say(pgettext("synthesize", "error")), errors),
+        (say(_("worst")), worst),
+        (say(_("defects")), [defects_text(one, say) for one in each]),
+        (
+            say(pgettext("synthesize", "input")),
+            [say(pgettext("synthesize", "turns") if one.turns else _("swings")) for one in each],
+        ),
+        ("μ_min / °", decimals([math.degrees(one.transmission_angle) for one in each], 2)),
+        (say(_("l max/min")), decimals([one.link_ratio for one in each], 3)),
+        (w.over(say(_("l max"))), w.lengths([one.linkage.longest() for one in each])),
+    ]
+    align = "><>><<>>>"
+    if found.task in RANKED and len(each) > 1:
+        columns.append((w.say(_("merit")), decimals(merits(each, found.extent), 4)))
+        align += ">"
+    w.table(step, _("Candidates"), columns, align)
+    step.say(say(ERRORS[found.error_name]))
+
+
+def _lengths(w: Writer, step: Step) -> None:
+    """Lengths of the links, candidates of the same links in one table."""
+    groups: dict[tuple[str, ...], list[tuple[int, dict[str, float]]]] = {}
+    for number, each in enumerate(w.found.candidates, 1):
+        lengths = each.linkage.lengths()
+        groups.setdefault(tuple(lengths), []).append((number, lengths))
+    for names, rows in groups.items():
+        columns = [(w.say(_("no.")), [str(number) for number, _unused in rows])]
+        columns += [
+            (w.over(display_name(name, w.say)), w.lengths([lengths[name] for _unused, lengths in rows]))
+            for name in names
+        ]
+        w.table(step, _("Link lengths"), columns)
+
+
+def _reason(w: Writer) -> str:
+    """Why the first candidate was taken."""
+    found, best = w.found, w.found.best
+    angle = f"{math.degrees(best.transmission_angle):.2f}"
+    if found.task in DETERMINED:
+        return w.say(_("The demands determine the linkage; there is nothing to choose."))
+    if found.task not in RANKED:
+        return w.say(REASONS[found.task].format(angle=angle, ratio=f"{best.link_ratio:.3g}"))
+    if getattr(found.derivation, "method", "") == "equation":
+        return w.say(
+            _(
+                "The linear equations have one solution. Of both assembly modes the one with the "
+                "smaller structural error was taken; its smallest transmission angle is {angle}°.",
+                angle=angle,
+            )
+        )
+    if len(found) == 1:
+        return w.say(
+            _("No other different candidate was found; its smallest transmission angle is {angle}°.", angle=angle)
+        )
+    second = found[1]
+    if bool(second.defects) != bool(best.defects):
+        return w.say(
+            _("Candidate 1 is taken because candidate 2 has defects: {defects}.", defects=defects_text(second, w.say))
+        )
+    both_exact = error_texts(best)[0] == "0" and error_texts(second)[0] == "0"
+    if not both_exact and abs(best.error - second.error) > EQUAL_ERRORS * second.error:
+        return w.say(
+            _(
+                "Candidate 1 is taken for its smaller error: {error} against {next}.",
+                error=error_texts(best)[0],
+                next=error_texts(second)[0],
+            )
+        )
+    first, other = merits(found.candidates[:2], found.extent)
+    return w.say(
+        _(
+            "Errors and defects are equal, so the merit decides, {merit} against {next}: the "
+            "sine of the smallest transmission angle (here {angle}°), less for a linkage larger "
+            "than three times the demand, or with links more unequal than 1:10.",
+            merit=f"{first:.4f}",
+            next=f"{other:.4f}",
+            angle=angle,
+        )
+    )

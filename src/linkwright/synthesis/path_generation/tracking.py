@@ -173,7 +173,7 @@ def _carried_compiled(
 ) -> Ends:
     """The same steps for points alone in compiled code."""
     from linkwright.formula.kernel_writer import LANES
-    from linkwright.synthesis.nine_points.kernels import ROOM, kernels
+    from linkwright.synthesis.path_generation.tracking_kernels import ROOM, kernels
 
     rows, arrived, room = start.copy(), np.zeros(len(start)), np.zeros(ROOM)
     along = [

@@ -1,1 +1,0 @@
-"""All four-bars whose coupler point passes nine given points."""
