@@ -118,7 +118,7 @@ def test_a_picture_too_large_for_memory_is_refused(tmp_path: Path) -> None:
     target = tmp_path / "a.png"
     told = is_refused(["draw", "gallery:kite", "--output", str(target), "--width", "1000000"], "picture.bad_width")
     assert not target.exists()
-    assert 3000 < int(str(told.values["most"])) < 60_000
+    assert 3000 < int(str(told.values["maximum"])) < 60_000
 
 
 @pytest.mark.rotating

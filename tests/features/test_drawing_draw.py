@@ -211,7 +211,7 @@ def test_path_of_a_point_closes(crusher: lw.Motion) -> None:
         ({"overlay": "faded:0"}, "picture.bad_overlay", {"overlay": "faded:0"}),
         ({"dimensions": ("jam",), "at": 0.1}, "names.no_such", {"name": "jam", "offer": "jaw"}),
         ({"language": "de"}, "names.no_language", {"language": "de", "languages": ("en", "zh")}),
-        ({"size": -3}, "picture.bad_size", {"size": -3, "least": 8, "most": 32000}),
+        ({"size": -3}, "picture.bad_size", {"size": -3, "minimum": 8, "maximum": 32000}),
         ({"dimensions": ("jam",)}, "names.no_such", {"name": "jam", "offer": "jaw"}),
         ({"velocities": ("Z",)}, "names.no_such", {"name": "Z"}),
     ],
@@ -226,9 +226,9 @@ def test_what_is_refused(
 @pytest.mark.parametrize("width", [0, 1_000_000, 7])
 def test_a_width_beyond_reason_is_refused_with_its_range(crusher: lw.Motion, width: int) -> None:
     pytest.importorskip("resvg_py")
-    with refused("picture.bad_width", RequestError, across=float(width), least=8) as caught:
+    with refused("picture.bad_width", RequestError, across=float(width), minimum=8) as caught:
         draw(crusher).png(width=width)
-    assert 8 < caught.value.values["most"] < 1_000_000
+    assert 8 < caught.value.values["maximum"] < 1_000_000
     assert draw(crusher).png(width=8).startswith(b"\x89PNG")
 
 

@@ -31,18 +31,6 @@ driver:
             np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12)
 
 
-def test_drivers_tables_need_no_scipy() -> None:
-    import subprocess
-    import sys
-
-    program = (
-        "import sys, linkwright as lw\n"
-        "lw.solve_motion(lw.load('gallery:excavator'), steps=12)\n"
-        "sys.exit('scipy' in sys.modules)"
-    )
-    assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0
-
-
 TABLE = (
     "table: {time: [0.5 s, 0.8 s, 1.4 s, 2 s, 2.5 s], position: [0 deg, 20 deg, 15 deg, 60 deg, 40 deg],"
     " interpolation: HOW}"

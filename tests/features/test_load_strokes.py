@@ -120,7 +120,7 @@ def test_more_than_the_stroke_is_refused_with_its_length() -> None:
         ("last: 0", "range", ".last", {"text": "0"}),
         ("first: -10 mm", "range", ".first", {"text": "-10 mm"}),
         ("last: 10 deg", "wrong-dimension", ".last", {"text": "10 deg"}),
-        ("free: [0.1]", "count", ".free", {"given": 1, "count": 2}),
+        ("free: [0.1]", "count", ".free", {"found": 1, "count": 2}),
         ("first: 0.1, last: 0.1", "choice", "", {"words": ("first", "last")}),
     ],
 )

@@ -448,7 +448,7 @@ def test_the_least_cam_whose_follower_presses_no_harder_on_its_guide() -> None:
             "optimize.vary.crank.length",
             {"address": "crank.length"},
         ),
-        ({"keep": {"stroke guide": "more than 2"}}, "demand", "optimize.keep.stroke guide", {"given": "more than 2"}),
+        ({"keep": {"stroke guide": "more than 2"}}, "demand", "optimize.keep.stroke guide", {"text": "more than 2"}),
         (
             {"keep": {"stroke guide": "at least 2 kg"}},
             "wrong-dimension",

@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from gettext import NullTranslations
 from unittest.mock import patch
 
+from linkwright.cli.options import COMMON
 from linkwright.words import message
 
 PSEUDO = "qps"
@@ -57,7 +58,8 @@ def pseudo_locale() -> Iterator[str]:
     def with_pseudo(language: str) -> NullTranslations:
         return Pseudo() if language == PSEUDO else translations(language)
 
-    with patch.object(message, "translations", with_pseudo):
+    languages = next(each.type for each in COMMON if each.name == "lang")
+    with patch.object(message, "translations", with_pseudo), patch.object(languages, "choices", (*known, PSEUDO)):
         for module in holders:
             module.LANGUAGES = (*known, PSEUDO)
         try:
