@@ -21,7 +21,6 @@ from linkwright.server.draft import completed, picture
 from linkwright.server.edits import edited
 from linkwright.server.files import Files
 from linkwright.server.request import mapping, number, numbers, text
-from linkwright.server.search import linkages
 from linkwright.words import LANGUAGES, _
 from linkwright.words.sentence import in_language
 
@@ -50,9 +49,7 @@ class Work:
             "disk": lambda a: files.disk(text(a, "name")),
             "solve": lambda a: self._solve(text(a, "text"), language_of(a), self._folder(text(a, "name", ""))),
             "edit": self._edit,
-            "curve": lambda a: self.background.begin(
-                "curve", linkages(a.get("points"), bool(a.get("closed"))), language_of(a)
-            ),
+            "curve": self._curve,
             "optimize": self._optimize,
             "goals": self._goals,
             "candidates": lambda a: self.background.state(),
@@ -112,6 +109,13 @@ class Work:
             if foreseen is not None and foreseen[:3] == (text, language, folder):
                 return foreseen[3]
             return solved(text, language, folder)
+
+    def _curve(self, asked: Plain) -> Plain:
+        """Begins the search for linkages through a curve that was drawn."""
+        from linkwright.server.search import linkages
+
+        work = linkages(asked.get("points"), bool(asked.get("closed")))
+        return self.background.begin("curve", work, language_of(asked))
 
     def _optimize(self, asked: Plain) -> Plain:
         """Begins the optimisation that the text's section asks."""
