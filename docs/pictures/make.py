@@ -6,7 +6,7 @@ from typing import Any
 import linkwright as lw
 from linkwright.pictures.drawing import bounds, document
 from linkwright.pictures.picture import Text, as_runs
-from linkwright.pictures.svg.element import group
+from linkwright.pictures.svg import group
 from linkwright.pictures.symbols.base import SYMBOLS
 from linkwright.plotting.animation import animate
 from linkwright.plotting.drawing import draw

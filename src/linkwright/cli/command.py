@@ -117,7 +117,7 @@ class Command(click.Command):
         """Runs the command, with the fonts that were named."""
         if not ctx.params.get("fonts"):
             return super().invoke(ctx)
-        from linkwright.pictures.svg.fonts import font_files, more_fonts
+        from linkwright.pictures.fonts import font_files, more_fonts
 
         with about("--fonts", UsageError, RequestError):
             fonts = font_files(ctx.params["fonts"])

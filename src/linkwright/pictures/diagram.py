@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.filesystem import atomic_write, refuse_target
 from linkwright.pictures.drawing import PIXELS, Drawing
-from linkwright.pictures.svg.fonts import chinese_file, own_fonts
-from linkwright.pictures.svg.render import MOST_PIXELS, natural_size, pdf, png
+from linkwright.pictures.fonts import chinese_file, own_fonts
+from linkwright.pictures.svg import MOST_PIXELS, natural_size, pdf, png
 from linkwright.words import _
 
 if TYPE_CHECKING:

@@ -25,7 +25,7 @@ from linkwright.pictures.picture import (
     line_width,
     name_runs,
 )
-from linkwright.pictures.svg.element import element, number
+from linkwright.pictures.svg import element, number
 from linkwright.pictures.symbols.arrows import BEHIND, NARROW
 from linkwright.pictures.symbols.base import vec, way
 

@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
-from linkwright.pictures.svg.element import Attribute, Element, element, number, path_data, split_index
-from linkwright.pictures.svg.element import width as text_width
-from linkwright.pictures.svg.fonts import needs_chinese
+from linkwright.pictures.fonts import needs_chinese
+from linkwright.pictures.svg import Attribute, Element, element, number, path_data, split_index
+from linkwright.pictures.svg import width as text_width
 
 #: Kinds of lines after GB/T 4457.4 and ISO 128-2: ``frame`` and ``thick`` are wide, the others have half their width;
 #: ``chain`` for paths, centre lines and pitch circles, ``double_chain`` for limit positions of moving parts.

@@ -25,8 +25,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.pictures.drawing import COLOURS, Box, bounds, document
 from linkwright.pictures.labels import Label, Obstacles, place_moving, written
 from linkwright.pictures.picture import Circle, SvgNode
-from linkwright.pictures.svg.element import group
-from linkwright.pictures.svg.render import png
+from linkwright.pictures.svg import group, png
 from linkwright.plotting.diagrams.source import PlotInput
 from linkwright.plotting.drawing.draw import Legend, Names, all_arrows, solved
 from linkwright.plotting.drawing.loads import load_marks, moving_springs

@@ -14,7 +14,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.pictures.drawing import document
 from linkwright.pictures.picture import Circle, Line, SvgNode, Text, sentence_runs
-from linkwright.pictures.svg.element import Element, element, fold, width
+from linkwright.pictures.svg import Element, element, fold, width
 from linkwright.pictures.symbols.arrows import head
 from linkwright.pictures.symbols.base import points, vec, way
 from linkwright.plotting.solution_steps import Node, Shape

@@ -22,11 +22,10 @@ from linkwright.kinetostatics.applied_wrenches import AppliedWrench, applied_wre
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.link_balance import driver_wrenches
 from linkwright.mechanism.force_names import link_numbers
-from linkwright.pictures.drawing import bounds
+from linkwright.pictures.drawing import Sketch, bounds
 from linkwright.pictures.labels import Label
 from linkwright.pictures.picture import GRAPHICAL, Line, SvgNode, round_up
-from linkwright.pictures.sketch import Sketch
-from linkwright.pictures.svg.element import group
+from linkwright.pictures.svg import group
 from linkwright.pictures.symbols.base import SYMBOLS, points, vec
 from linkwright.plotting.drawing.machine import DrawnMechanism, Part, View
 from linkwright.plotting.drawing.scene import Scene, parts_of, point_labels

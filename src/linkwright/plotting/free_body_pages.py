@@ -12,9 +12,9 @@ import numpy as np
 from linkwright.core.quantity import fixed
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
+from linkwright.pictures.drawing import Sketch
 from linkwright.pictures.picture import GRAPHICAL, indexed, name_runs, round_up, sentence_runs
-from linkwright.pictures.sketch import Sketch
-from linkwright.pictures.svg.element import fold
+from linkwright.pictures.svg import fold
 from linkwright.plotting.diagrams.scaled_page import page
 from linkwright.plotting.drawing.vectors import with_unit
 from linkwright.plotting.free_bodies import (

@@ -15,10 +15,9 @@ from linkwright.errors import require_language
 from linkwright.gears.gear import Gear
 from linkwright.gears.pair import GearPair
 from linkwright.gears.rack import Rack
-from linkwright.pictures.drawing import Drawing
+from linkwright.pictures.drawing import Drawing, Sketch
 from linkwright.pictures.picture import Vec
-from linkwright.pictures.sketch import Sketch
-from linkwright.pictures.svg.element import element, path_data
+from linkwright.pictures.svg import element, path_data
 from linkwright.pictures.symbols.base import ring, vec, way
 from linkwright.words import Message, _
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from linkwright.pictures.svg.render import natural_size
+from linkwright.pictures.svg import natural_size
 from linkwright.plotting.drawing.machine import DIAGONAL
 from linkwright.plotting.drawing.scene import LINK_SIZE
 from linkwright.reports.typst_pages import TEXT

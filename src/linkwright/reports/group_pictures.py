@@ -6,10 +6,8 @@ from collections.abc import Sequence
 
 from linkwright.core.arrays import Floats
 from linkwright.elements.topology import Group
-from linkwright.pictures.drawing import bounds, document
-from linkwright.pictures.sketch import Sketch
-from linkwright.pictures.svg.element import group
-from linkwright.pictures.svg.render import natural_size
+from linkwright.pictures.drawing import Sketch, bounds, document
+from linkwright.pictures.svg import group, natural_size
 from linkwright.plotting.drawing.draw import laid_out_with_ghosts
 from linkwright.plotting.drawing.machine import Part
 from linkwright.plotting.drawing.scene import Scene, Shown, point_labels

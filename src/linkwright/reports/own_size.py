@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from linkwright.pictures.drawing import PIXELS
-from linkwright.pictures.svg.render import natural_size
+from linkwright.pictures.svg import natural_size
 from linkwright.reports.typst_pages import TEXT
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from urllib.parse import unquote
 
 from linkwright.errors import LinkwrightError
-from linkwright.pictures.svg.render import natural_size, png
+from linkwright.pictures.svg import natural_size, png
 from linkwright.words import _
 
 #: Endings of pictures, and the name of their form; largest file, bytes.

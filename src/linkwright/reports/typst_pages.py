@@ -11,8 +11,8 @@ from unicodedata import category
 
 from linkwright.equations.notation import Row
 from linkwright.errors import LinkwrightError
-from linkwright.pictures.svg.fonts import check_fonts, own_fonts
-from linkwright.pictures.svg.render import natural_size
+from linkwright.pictures.fonts import check_fonts, own_fonts
+from linkwright.pictures.svg import natural_size
 from linkwright.reports.document import (
     Block,
     Code,

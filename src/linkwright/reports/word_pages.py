@@ -294,7 +294,7 @@ class _Writer:
         from docx.enum.text import WD_ALIGN_PARAGRAPH
         from docx.shared import Inches, Mm
 
-        from linkwright.pictures.svg.render import png
+        from linkwright.pictures.svg import png
 
         line = self.file.add_paragraph()
         line.alignment = WD_ALIGN_PARAGRAPH.CENTER

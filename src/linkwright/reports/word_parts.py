@@ -87,7 +87,7 @@ def add_cover(file: Any, cover: Cover) -> None:
         return made
 
     if cover.logo:
-        from linkwright.pictures.svg.render import png
+        from linkwright.pictures.svg import png
 
         made = line("", 12, 24)
         picture = made.runs[0].add_picture(io.BytesIO(png(cover.logo, width=800)), width=Inches(LOGO))

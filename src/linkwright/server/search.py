@@ -1,17 +1,28 @@
-"""Linkages for a curve that was drawn by hand."""
+"""Searches of the studio: optimisation of the open model, and linkages for a curve that was drawn by hand."""
 
 from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from functools import partial
 from typing import Any
 
 import numpy as np
 
+from linkwright.analysis import METRICS, metrics
+from linkwright.analysis.outputs import mechanism_outputs
 from linkwright.core.json_data import Plain
-from linkwright.errors import LinkwrightError
+from linkwright.designs.criteria import criterion
+from linkwright.designs.optimise.optimize import optimize
+from linkwright.designs.optimise.optimum import OptimizeError, Optimum, comparison
+from linkwright.designs.optimise.problem import problem
+from linkwright.errors import LinkwrightError, RequestError
+from linkwright.files.document import Document
+from linkwright.files.model_file import read_text
 from linkwright.files.write import dump
+from linkwright.kinematics.solve import solve_motion
+from linkwright.kinetostatics.run import solve_forces
 from linkwright.server.background import Job
 from linkwright.synthesis.result import Candidate, Synthesis
 from linkwright.words import _
@@ -46,7 +57,7 @@ def _search(curve: np.ndarray, closed: bool, job: Job) -> None:
         if isinstance(result, LinkwrightError):
             refused = result
             continue
-        shown = (_shown(each, curve) for each in result)
+        shown = (_drawn_candidate(each, curve) for each in result)
         best = _distinct(sorted([*best, *shown], key=lambda each: float(each["error"])))
         job.tell(best)
     if refused is not None and not best:
@@ -83,7 +94,7 @@ def _even(curve: np.ndarray, closed: bool) -> np.ndarray:
     return np.stack([np.interp(at, way, line[:, k]) for k in range(2)], axis=1)
 
 
-def _shown(candidate: Candidate, target: np.ndarray) -> Plain:
+def _drawn_candidate(candidate: Candidate, target: np.ndarray) -> Plain:
     """A candidate as plain data; ``error``: the farthest that a point of the target is from its curve, m."""
     drawn = np.asarray(candidate.curve if candidate.curve is not None else [], dtype=complex).ravel()
     goal = target[:, 0] + 1j * target[:, 1]
@@ -103,3 +114,63 @@ def _distinct(ordered: list[Plain], most: int = 6) -> list[Plain]:
     """The first ones that are not the same again."""
     keys = itertools.groupby(ordered, key=lambda each: (each["links"], round(float(each["error"]), 7)))
     return [next(group) for _unused, group in keys][:most]
+
+
+#: Designs of a front that are shown.
+SHOWN = 8
+
+
+def optimised(text: str) -> Callable[[Job], None]:
+    """The optimisation of a model; raises LinkwrightError with all findings about its settings."""
+    document = Document(text, "model", read_text)
+    mechanism = document.mechanism
+    if not mechanism.optimize:
+        raise RequestError(
+            _(
+                "the text has no section optimize; choose what varies and what is minimized first",
+                code="studio.no_optimize",
+            )
+        )
+    problem(mechanism, mechanism.optimize, document.name)
+    return partial(_optimise, document)
+
+
+def _optimise(document: Document, job: Job) -> None:
+    def tell(found: Optimum) -> None:
+        job.tell(**_designs(found, job.language))
+
+    try:
+        tell(optimize(document, progress=job.alive, leading=tell))
+    except OptimizeError as error:
+        tell(error.nearest)
+        raise
+
+
+def _designs(found: Optimum, language: str) -> Plain:
+    """The designs with their values (SI) and the rows of metrics next to those of the start, as texts."""
+    choices = found.choices[:: -(-len(found) // SHOWN)]
+    tables = [comparison(found, each, language).texts() for each in choices]
+    return {
+        "head": tables[0][0],
+        "candidates": [
+            {"values": dict(each.values), "rows": rows[1:], "missed": list(each.missed)}
+            for each, rows in zip(choices, tables, strict=True)
+        ],
+    }
+
+
+def goals(text: str, language: str) -> list[Plain]:
+    """What can be minimized or demanded: metrics of the machine and of their subjects, with their labels."""
+    mechanism = Document(text, "model", read_text).mechanism
+    rows = metrics(solve_forces(solve_motion(mechanism)))
+    names: dict[str, None] = {}
+    for row in rows:
+        if METRICS[row.metric].better is not None:
+            names |= {row.metric: None, f"{row.metric} {row.subject}": None}
+    for output in mechanism_outputs(mechanism):
+        names |= {f"{output.name} {kind}": None for kind in ("range", "max", "min")}
+    found = []
+    for name in names:
+        with suppress(LinkwrightError):
+            found.append({"name": name, "label": criterion(name).label(language)})
+    return found

@@ -1,4 +1,4 @@
-"""The studio's web server: this machine only, a secret in the address, no other origin.
+"""The studio's web server: this machine only, a secret in its address, no other origin; the texts of its page.
 
 Every request must name this server in ``Host`` (a foreign name that leads here is refused), come from no other
 origin, and carry the secret: the page in its address, the requests in a header of their own, which a foreign page
@@ -7,12 +7,14 @@ cannot send.
 
 from __future__ import annotations
 
+import hashlib
 import hmac
 import json
 import re
 import secrets
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import asdict, dataclass
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib.resources import files
@@ -21,15 +23,16 @@ from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
 from linkwright.core.json_data import Plain
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
+from linkwright.filesystem import atomic_write, make_folder
+from linkwright.formula.machine_code import folder as cache_folder
 from linkwright.page.texts import TEXTS as PAGE_TEXTS
 from linkwright.pictures.symbols.base import SYMBOLS
 from linkwright.server.background import unexpected
 from linkwright.server.files import LARGEST, Files
 from linkwright.server.request import BadRequest, parsed
-from linkwright.server.texts import TEXTS
 from linkwright.server.work import Work, error_text, language_of
-from linkwright.words import LANGUAGES, Message, _
+from linkwright.words import LANGUAGES, Message, _, pgettext
 
 _POLICY = (
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; connect-src 'self'; "
@@ -210,3 +213,182 @@ class _Handler(BaseHTTPRequestHandler):
 
     def log_message(self, format: str, *args: Any) -> None:
         """Nothing is written to the terminal."""
+
+
+def started(folder: Path, name: str | None, *, port: int = 0, language: str = "en") -> Studio:
+    """A studio of a folder at its port of last time, or at the one that is asked for; raises OSError."""
+    known = recalled(folder)
+    studio = None
+    if known is not None and port in (0, known.port):
+        with suppress(OSError):
+            studio = Studio(folder, name, port=known.port, language=language, token=known.token)
+    studio = studio or Studio(folder, name, port=port, language=language)
+    remember(folder, Address(studio.server_port, studio.token))
+    return studio
+
+
+@dataclass(frozen=True)
+class Address:
+    """Port and secret of a studio."""
+
+    port: int
+    token: str
+
+
+def recalled(folder: Path) -> Address | None:
+    """The address stored for a folder, if any."""
+    path = _path(folder)
+    try:
+        found = Address(**json.loads(path.read_bytes())) if path is not None else None
+    except (OSError, ValueError, TypeError):
+        return None
+    if found is None or not isinstance(found.port, int) or not isinstance(found.token, str):
+        return None
+    return found if 0 < found.port < 65536 and len(found.token) >= 32 else None
+
+
+def remember(folder: Path, address: Address) -> None:
+    """Stores an address where only this user can read it; without a cache folder nothing is stored."""
+    path = _path(folder)
+    if path is None:
+        return
+    with suppress(RequestError):
+        make_folder(path.parent)
+        atomic_write(path, json.dumps(asdict(address)).encode(), private=True)
+
+
+def _path(folder: Path) -> Path | None:
+    base = cache_folder()
+    name = hashlib.sha256(str(folder.resolve()).encode()).hexdigest()[:24]
+    return None if base is None else base / "studio" / f"{name}.json"
+
+
+TEXTS = {
+    "studio.large": _("the text is larger than {most} bytes"),
+    "studio.text": _("Model file"),
+    "studio.new": _("New"),
+    "studio.open": _("Open"),
+    "studio.gallery": _("Gallery"),
+    "studio.save": _("Save"),
+    "studio.name": _("File name"),
+    "studio.saved": _("Saved."),
+    "studio.unsaved": _("Not saved; stored as a draft."),
+    "studio.recovered": _("What was not saved last time is here again."),
+    "studio.elsewhere": _("Another window has changed this file."),
+    "studio.take_theirs": _("Take its text"),
+    "studio.keep_mine": _("Keep mine"),
+    "studio.on_disk": _(
+        "The file on the disk has changed since it was opened; save under another name, or overwrite it."
+    ),
+    "studio.typed_meanwhile": _(
+        "The text was changed while that of the disk came, and is kept; take the disk's again to put it in its place."
+    ),
+    "studio.there_already": _(
+        "{name} is there already, as a file or as an unsaved drawing; save under another name, or overwrite it."
+    ),
+    "studio.overwrite": _("Overwrite"),
+    "studio.draw": _("Draw"),
+    "studio.run": _("Run"),
+    "studio.select": _("Move"),
+    "studio.fixed": _("Fixed point"),
+    "studio.link": _("Link"),
+    "studio.driver": _("Drive"),
+    "studio.guide": _("Slide"),
+    "studio.mass": pgettext("studio", "Mass"),
+    "studio.load": _("Load"),
+    "studio.remove": _("Remove"),
+    "studio.grid": _("Grid"),
+    "studio.help_select": _("Drag a point; a click on a load chooses it."),
+    "studio.help_fixed": _("Click where the frame has a pivot."),
+    "studio.help_link": _(
+        "Click two or more points, existing or new; Enter or the last point again ends, Escape drops it."
+    ),
+    "studio.help_driver": _("Click a link that has a fixed point: it is driven about it."),
+    "studio.help_guide": _("Click a point of a link, then where its guide leads."),
+    "studio.help_mass": _("Click a link; it gets the mass {value} and the moment of inertia of an even bar."),
+    "studio.help_load": _(
+        "Click a link near one of its points, then where the force {value} points; a second "
+        "click on the point takes the next link of its pin."
+    ),
+    "studio.help_remove": _("Click a link, a load, or a pin: the links of a pin come apart."),
+    "studio.mobility": _("mobility {value}"),
+    "studio.findings": _("Findings"),
+    "studio.fine": _("No findings."),
+    "studio.line": _("line {line}"),
+    "studio.gone": _("The server does not answer; changes remain in this window until it does."),
+    "studio.paper": _("Drawing paper"),
+    "studio.placed": _("{name} is where its lengths put it; change them in the text, or drag it under Run."),
+    "studio.value": _("Value"),
+    "studio.slot": _("Slot"),
+    "studio.gear": _("Gears"),
+    "studio.curve": _("Target curve"),
+    "studio.photo": _("Photo"),
+    "studio.help_slot": _("Click the slotted link, then the point that slides in it."),
+    "studio.help_gear": _("Click two links with fixed points: they mesh, with {value} teeth."),
+    "studio.help_curve": _(
+        "Draw a curve with the pointer: linkages that draw it are searched for at once. It "
+        "is closed where it ends near its beginning."
+    ),
+    "studio.help_photo": _(
+        "Choose a picture; then click two points of it that are {value} apart, and it is to scale."
+    ),
+    "studio.choose_photo": _("Choose a picture"),
+    "studio.without_photo": _("Without the picture"),
+    "studio.candidates": _("Linkages for the curve"),
+    "studio.searching": _("Searching …"),
+    "studio.enough": _("Enough"),
+    "studio.candidate": _("{links} links: at most {error} off, transmission angle at least {angle}"),
+    "studio.take": _("Report and export"),
+    "studio.take_report": _("Report"),
+    "studio.making": _("The file is being made …"),
+    "studio.cam": pgettext("studio", "Cam"),
+    "studio.rack": _("Rack"),
+    "studio.help_cam": _(
+        "Click the link that turns as a cam, then a point of a link that slides or turns on "
+        "the frame: a roller there is lifted by {value}. The base circle goes where the "
+        "roller is."
+    ),
+    "studio.help_rack": _(
+        "Click a link with a fixed point, then a link that slides: they mesh as pinion and "
+        "rack, with the pinion as large as it is drawn."
+    ),
+    "studio.optimize": _("Optimise"),
+    "studio.vary": _("What varies"),
+    "studio.goals": _("What is minimized or maximized"),
+    "studio.demands": _("Demands"),
+    "studio.least": _("least"),
+    "studio.most": _("greatest"),
+    "studio.add_dimension": _("Add a dimension …"),
+    "studio.add_goal": _("Add a number"),
+    "studio.add_demand": _("Add a demand"),
+    "studio.range_of": _("Range of {name}"),
+    "studio.number_name": _("Name of the number"),
+    "studio.demand_text": _("Demand"),
+    "studio.forget": pgettext("studio", "Forget {name}"),
+    "studio.begin": _("Begin"),
+    "studio.tried": _("{done} of at most {most} machines tried"),
+    "studio.design": _("Design {number}"),
+    "studio.missed": _("misses {names}"),
+    "studio.take_design": _("Take these dimensions"),
+    "studio.help_optimize": _(
+        "Choose dimensions with their ranges and a number; the file keeps the settings. "
+        "Every design passes the full cycle in the assembly of the present one. The pointer "
+        "over a design shows its paths; taking one writes its dimensions into the file."
+    ),
+    "studio.beside": _("Compare with …"),
+    "studio.without_beside": _("End the comparison"),
+    "studio.semicolon": _("; "),
+    "studio.finding": _("{name}: {sentence}"),
+    "studio.cannot_run": _("It cannot run yet: {reason}."),
+    "studio.no_machine": _("the text makes no machine that moves"),
+    "studio.set_aside": _("Saved. The unsaved drawing that was called {name} is now {aside}."),
+    "studio.never_saved": _("{name} (not saved yet)"),
+    "studio.loads": _("Loads"),
+    "studio.load_is": _("{name}: {size} on {on}"),
+    "studio.remove_load": _("Remove {name}"),
+    "studio.load_chosen": _("{name}: {size} on {on} {at}. Delete removes it; its values stand in the text."),
+    "studio.no_drive": _("{link} has no fixed point about which it could be driven."),
+    "studio.no_link_there": _("No link has the point {point}; draw one first."),
+    "studio.no_length_given": _("{text} is not a length; write it as 100 mm."),
+    "studio.demand_hint": _("at least 40 deg"),
+}

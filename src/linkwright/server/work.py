@@ -1,4 +1,4 @@
-"""What the studio asks of Python: models solved for the page, findings at their lines, changes of the text."""
+"""What the studio asks of Python: models solved, findings at their lines, changes, searches."""
 
 from __future__ import annotations
 
@@ -119,13 +119,13 @@ class Work:
 
     def _optimize(self, asked: Plain) -> Plain:
         """Begins the optimisation that the text's section asks."""
-        from linkwright.server.optimising import optimised
+        from linkwright.server.search import optimised
 
         return self.background.begin("optimum", optimised(text(asked, "text")), language_of(asked))
 
     def _goals(self, asked: Plain) -> Plain:
         """What an optimisation of a text's model can minimize or limit."""
-        from linkwright.server.optimising import goals
+        from linkwright.server.search import goals
 
         return {"goals": goals(text(asked, "text"), language_of(asked))}
 

@@ -11,7 +11,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.quantity import significant
 from linkwright.mechanism.force_names import link_numbers, reaction_index, reaction_pairs
 from linkwright.pictures.picture import Runs, Words, as_runs, indexed, joined
-from linkwright.pictures.svg.element import split_index
+from linkwright.pictures.svg import split_index
 from linkwright.sheets.panel import TablePanel
 from linkwright.sheets.positions import Positions
 from linkwright.words import _

@@ -62,7 +62,7 @@ class Sheet:
         if ending == ".svg":
             return self.svg().encode()
         if ending == ".pdf":
-            from linkwright.pictures.svg.render import pdf
+            from linkwright.pictures.svg import pdf
 
             return pdf(self.svg(), fonts=fonts, millimetres=(self.paper.width, self.paper.height))
         if ending == ".dxf":

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from linkwright.pictures.fonts import needs_chinese
 from linkwright.pictures.picture import MIN_TEXT, TEXT, Box, Picture, as_runs, runs_width
-from linkwright.pictures.svg.fonts import needs_chinese
 from linkwright.words import Translate, _, pgettext
 
 #: Minimum width of letters as a share of their own.

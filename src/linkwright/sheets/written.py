@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.exporters.dxf.entities import add, content_of, new_document
 from linkwright.pictures.picture import Circle, Item, Line, Text
-from linkwright.pictures.svg.element import FAMILY_LIST, element, number
+from linkwright.pictures.svg import FAMILY_LIST, element, number
 from linkwright.sheets.paper import Paper
 
 #: Dashes and gaps of the kinds of lines in widths of a thin line (GB/T 17450, shortened for small pictures).

@@ -99,7 +99,7 @@ def test_interruption_leaves_no_file(
         if seen:
             raise KeyboardInterrupt
         seen.append(svg)
-        from linkwright.pictures.svg.render import png
+        from linkwright.pictures.svg import png
 
         return png(svg, width=100)
 

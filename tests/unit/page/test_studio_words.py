@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from linkwright.page.texts import TEXTS as OF_PAGES
-from linkwright.server.texts import TEXTS
+from linkwright.server.web import TEXTS
 
 UI = Path(__file__).resolve().parents[3] / "ui"
 

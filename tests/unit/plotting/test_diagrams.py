@@ -79,7 +79,7 @@ def test_the_regular_face_of_a_collection_that_was_installed_after_the_list(
     stale.__dict__.update(font_manager.fontManager.__dict__)
     stale.ttflist = [font for font in font_manager.fontManager.ttflist if font.name == "DejaVu Sans"]
     monkeypatch.setattr(font_manager, "fontManager", stale)
-    monkeypatch.setattr("linkwright.pictures.svg.fonts.installed_chinese", lambda: tuple(sorted(tmp_path.iterdir())))
+    monkeypatch.setattr("linkwright.pictures.fonts.installed_chinese", lambda: tuple(sorted(tmp_path.iterdir())))
     chosen = picture.chinese_font()
     assert chosen is not None
     found = stale.findfont(font_manager.FontProperties(family=[chosen]))

@@ -8,8 +8,8 @@ from tests.every import every
 from tests.refusals import refused
 
 import linkwright as lw
+from linkwright.pictures import fonts
 from linkwright.pictures.diagram import ALIAS, chinese_font
-from linkwright.pictures.svg import fonts
 
 #: Commands that draw, each with what it needs besides.
 DRAWING = (

@@ -9,7 +9,7 @@ from tests.every import every
 
 import linkwright as lw
 from linkwright.pictures.picture import GRAPHICAL, round_up
-from linkwright.pictures.svg.element import fold, width
+from linkwright.pictures.svg import fold, width
 from linkwright.plotting.free_bodies import free_bodies, idle_loads
 
 LOADED = [name for name in store.names() if store.machine(name).has_loads]

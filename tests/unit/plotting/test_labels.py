@@ -8,7 +8,7 @@ import pytest
 
 from linkwright.pictures.labels import Label, Obstacles, place
 from linkwright.pictures.picture import line_width, name_runs
-from linkwright.pictures.svg.element import split_index, width
+from linkwright.pictures.svg import split_index, width
 from linkwright.plotting.drawing.draw import Legend
 
 

@@ -12,8 +12,8 @@ from tests.every import every
 from tests.refusals import refused
 
 import linkwright as lw
+from linkwright.pictures.drawing import Sketch
 from linkwright.pictures.picture import Line, Text
-from linkwright.pictures.sketch import Sketch
 from linkwright.plotting.diagrams.motion_polygons import (
     MotionPolygon,
     acceleration_polygon,

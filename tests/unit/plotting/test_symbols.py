@@ -8,7 +8,7 @@ import pytest
 
 from linkwright.pictures.drawing import CSS
 from linkwright.pictures.picture import Circle
-from linkwright.pictures.svg.element import element, group, number
+from linkwright.pictures.svg import element, group, number
 from linkwright.pictures.symbols.base import SYMBOLS, hatching, placed
 
 NEEDED = {

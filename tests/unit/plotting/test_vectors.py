@@ -26,7 +26,7 @@ def test_legend_value_is_round_and_fits(largest: float) -> None:
 
 def test_chinese_needs_a_font(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("resvg_py")
-    monkeypatch.setattr("linkwright.pictures.svg.fonts.installed_chinese", lambda: ())
+    monkeypatch.setattr("linkwright.pictures.fonts.installed_chinese", lambda: ())
     drawing = lw.draw(store.motion("jaw_crusher_sixbar", 72), velocities=("B",), language="zh")
     with refused("picture.no_chinese_font", RequestError):
         drawing.png()

@@ -17,7 +17,7 @@ from linkwright.equations.reading import filled, read, sides
 from linkwright.equations.reading import plain as unmarked
 from linkwright.equations.steps import Equation, Written
 from linkwright.errors import speaker
-from linkwright.pictures.svg.render import natural_size
+from linkwright.pictures.svg import natural_size
 from linkwright.plotting.sketches.base import SKETCHES
 from linkwright.reports.document import Figure, Formula, Heading, Paragraph, Table, plain
 from linkwright.reports.formula import formula

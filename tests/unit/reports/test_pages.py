@@ -6,7 +6,7 @@ import pytest
 from tests.every import every
 
 from linkwright.errors import speaker
-from linkwright.pictures.svg.render import natural_size
+from linkwright.pictures.svg import natural_size
 from linkwright.reports.document import Document, Figure, Heading
 from linkwright.reports.report import report
 from linkwright.reports.typst_pages import compiled, pages

@@ -21,7 +21,7 @@ from linkwright.files.schema import json_schema
 from linkwright.joints.cam import CamJoint
 from linkwright.mechanism.cam_shape import CamShape
 from linkwright.mechanism.force_names import reaction_pairs
-from linkwright.pictures.svg.render import natural_size
+from linkwright.pictures.svg import natural_size
 from linkwright.reports.document import Figure, Formula, Heading, Paragraph, Table, plain
 from linkwright.reports.key_names import MODEL_KEYS
 from linkwright.reports.machine_results import ReportContext

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from tests.at_once import at_once
 
-from linkwright.server.address import Address, recalled, remember
 from linkwright.server.files import Files
+from linkwright.server.web import Address, recalled, remember
 
 ROUNDS, HANDS = 25, 4
 

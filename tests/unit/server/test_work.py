@@ -10,7 +10,7 @@ import pytest
 from tests import store
 from tests.ui.studio import REQUESTS, asked, followed, serving
 
-from linkwright.server import work
+from linkwright.server import search, work
 from linkwright.server.files import Files
 
 
@@ -50,7 +50,7 @@ def test_faults_of_the_program_are_said_and_the_server_goes_on(
         raise ZeroDivisionError("by nought")
 
     monkeypatch.setattr(work, "edited", failing)
-    monkeypatch.setattr(work, "linkages", lambda *_: failing)
+    monkeypatch.setattr(search, "linkages", lambda *_: failing)
     with serving(tmp_path) as studio:
         status, found = asked(studio, "edit", {"text": "", "action": {}, "language": "zh"})
         assert status == 500

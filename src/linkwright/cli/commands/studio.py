@@ -39,7 +39,7 @@ def run(options: Options, session: Session) -> int:
     from pathlib import Path
 
     from linkwright.cli.errors import UsageError
-    from linkwright.server.start import started
+    from linkwright.server.web import started
 
     folder, name = Path.cwd().resolve(), None
     if options.file is not None:

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from linkwright.exporters.export import package
+from linkwright.pictures.fonts import needs_chinese
 from linkwright.pictures.picture import CAPITAL, Circle, Item, Text
-from linkwright.pictures.svg.fonts import needs_chinese
 from linkwright.words import _
 from linkwright.words.characters import one_line
 

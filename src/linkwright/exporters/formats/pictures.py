@@ -12,7 +12,7 @@ from linkwright.exporters.export import FORMATS, Format
 from linkwright.exporters.results import Results
 from linkwright.files.document import Document
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.pictures.svg import render
+from linkwright.pictures import svg as render
 from linkwright.plotting.drawing import draw
 from linkwright.words import _
 

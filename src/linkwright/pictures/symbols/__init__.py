@@ -1,1 +1,1 @@
-"""Symbols of kinematic drawings: one file per symbol."""
+"""Symbols of kinematic drawings."""

@@ -22,7 +22,7 @@ from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.pictures.diagram import INK, Axes, Figure
 from linkwright.pictures.labels import Label, Obstacles, place
 from linkwright.pictures.picture import Circle, round_up
-from linkwright.pictures.svg.element import split_index
+from linkwright.pictures.svg import split_index
 from linkwright.pictures.symbols.base import SYMBOLS, vec
 from linkwright.plotting.diagrams.axes import InputAxis, Unit
 from linkwright.plotting.diagrams.source import Extremes, PlotInput

@@ -22,10 +22,9 @@ from linkwright.errors import LinkwrightError
 from linkwright.joints.lower_pair import SlidingJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
-from linkwright.pictures.drawing import BLUE, GREEN, ORANGE, PURPLE, TEAL, Drawing, arrow_rules
+from linkwright.pictures.drawing import BLUE, GREEN, ORANGE, PURPLE, TEAL, Drawing, Sketch, arrow_rules
 from linkwright.pictures.labels import Label
 from linkwright.pictures.picture import indexed, joined
-from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.symbols.base import vec
 from linkwright.plotting.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plotting.diagrams.marks import with_index

@@ -11,7 +11,7 @@ from linkwright.errors import speaker
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.pictures.drawing import Drawing
-from linkwright.pictures.svg.element import fold
+from linkwright.pictures.svg import fold
 from linkwright.plotting.diagrams.axes import unit_of
 from linkwright.plotting.diagrams.base import DIAGRAMS, Kind, Request
 from linkwright.plotting.diagrams.forces import require_forces

@@ -12,11 +12,10 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import significant
 from linkwright.kinematics.motion import Motion
-from linkwright.pictures.drawing import Drawing
+from linkwright.pictures.drawing import Drawing, Sketch
 from linkwright.pictures.labels import Label
 from linkwright.pictures.picture import Runs, Words, indexed, joined, name_runs, round_up
-from linkwright.pictures.sketch import Sketch
-from linkwright.pictures.svg.element import element, fold
+from linkwright.pictures.svg import element, fold
 from linkwright.pictures.symbols.base import vec
 from linkwright.plotting.drawing.machine import View
 from linkwright.plotting.drawing.scene import laid_out, point_labels

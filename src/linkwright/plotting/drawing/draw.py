@@ -15,11 +15,10 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.force_names import link_numbers
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.pictures.drawing import Box, Drawing
+from linkwright.pictures.drawing import Box, Drawing, Sketch
 from linkwright.pictures.labels import Label
 from linkwright.pictures.picture import Runs, indexed, joined, line_width, name_runs
-from linkwright.pictures.sketch import Sketch
-from linkwright.pictures.svg.element import fold, group
+from linkwright.pictures.svg import fold, group
 from linkwright.plotting.drawing.dimensions import Dimension, dimension_lines
 from linkwright.plotting.drawing.loads import load_labels, load_marks, unmarked
 from linkwright.plotting.drawing.machine import DIAGONAL

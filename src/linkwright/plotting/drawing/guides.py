@@ -13,7 +13,7 @@ from linkwright.joints.lower_pair import SlidingJoint
 from linkwright.kinematics.placement import Placement
 from linkwright.pictures.picture import Vec
 from linkwright.pictures.symbols.base import SYMBOLS, points
-from linkwright.pictures.symbols.joints import HEIGHT, LENGTH
+from linkwright.pictures.symbols.machine import HEIGHT, LENGTH
 from linkwright.plotting.drawing.machine import DrawnMechanism, Part, support_direction
 
 STUB = 8.0

@@ -10,7 +10,7 @@ from linkwright.joints.base import JointName
 from linkwright.pictures.labels import Label
 from linkwright.pictures.picture import SvgNode, Vec
 from linkwright.pictures.symbols.base import EMPTY, SYMBOLS, Shape, joined
-from linkwright.pictures.symbols.joints import HEIGHT, LENGTH
+from linkwright.pictures.symbols.machine import HEIGHT, LENGTH
 from linkwright.plotting.drawing.guides import clear_shift, is_cylinder
 from linkwright.plotting.drawing.machine import DrawnMechanism, Press, Push, Turn, mark_of
 from linkwright.plotting.drawing.moving import moving_lines

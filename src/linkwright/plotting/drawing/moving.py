@@ -12,7 +12,7 @@ from linkwright.core.outputs import QUANTITIES, Output
 from linkwright.core.quantity import significant
 from linkwright.pictures.drawing import Box
 from linkwright.pictures.picture import Line, SvgNode, Text, name_runs
-from linkwright.pictures.svg.element import Element, coordinates, element, group, number, width
+from linkwright.pictures.svg import Element, coordinates, element, group, number, width
 from linkwright.pictures.symbols.arrows import arrow_points
 from linkwright.pictures.symbols.base import SYMBOLS, points
 from linkwright.plotting.diagrams.axes import unit_of

@@ -19,7 +19,7 @@ from linkwright.kinematics.positions import at_inputs
 from linkwright.kinematics.solve import solve_motion, with_times
 from linkwright.pictures.labels import Label
 from linkwright.pictures.picture import Circle, Line, SvgNode, Vec
-from linkwright.pictures.svg.element import group, number
+from linkwright.pictures.svg import group, number
 from linkwright.pictures.symbols.base import LINE, SYMBOLS, points, vec
 from linkwright.plotting.drawing.guides import guides, input_arrows, welds
 from linkwright.plotting.drawing.joint_marks import wheels

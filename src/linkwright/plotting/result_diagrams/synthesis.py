@@ -14,8 +14,7 @@ from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.quantity import significant
 from linkwright.errors import speaker
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, Axes, Figure, new_figure
-from linkwright.pictures.drawing import BLUE, GREEN, GROUND, ORANGE, Drawing, arrow_rules
-from linkwright.pictures.sketch import Sketch
+from linkwright.pictures.drawing import BLUE, GREEN, GROUND, ORANGE, Drawing, Sketch, arrow_rules
 from linkwright.pictures.symbols.base import vec
 from linkwright.plotting.diagrams.axes import Legend, make_plane, unit_of
 from linkwright.plotting.diagrams.base import Request, framed, result_diagram

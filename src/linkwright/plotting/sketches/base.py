@@ -10,9 +10,8 @@ from numpy.typing import ArrayLike
 
 from linkwright.errors import require_language
 from linkwright.parts.base import Problem
-from linkwright.pictures.drawing import Drawing
+from linkwright.pictures.drawing import Drawing, Sketch
 from linkwright.pictures.picture import Vec
-from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.symbols.base import placed, points, vec
 from linkwright.registry import Registry
 from linkwright.words import _

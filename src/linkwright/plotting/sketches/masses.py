@@ -11,10 +11,9 @@ from linkwright.parts.statics.rotor import Rotor
 from linkwright.parts.vibration.components import GROUND, STRAIGHT, TURNING, Connector
 from linkwright.parts.vibration.follower import FollowerSpring
 from linkwright.parts.vibration.system import VibratingSystem
-from linkwright.pictures.drawing import Drawing
+from linkwright.pictures.drawing import Drawing, Sketch
 from linkwright.pictures.labels import Label
 from linkwright.pictures.picture import Vec
-from linkwright.pictures.sketch import Sketch
 from linkwright.plotting.sketches.base import sketched
 
 #: Width and height of a mass, gap between masses, height between springs side by side.

@@ -16,9 +16,8 @@ from linkwright.parts.statics.force_system import ForceSystem
 from linkwright.parts.statics.forces import spatial
 from linkwright.parts.statics.friction import Belt, Wedge
 from linkwright.parts.trajectories.particle import Particle
-from linkwright.pictures.drawing import Drawing
+from linkwright.pictures.drawing import Drawing, Sketch
 from linkwright.pictures.picture import Vec
-from linkwright.pictures.sketch import Sketch
 from linkwright.pictures.symbols.base import vec
 from linkwright.plotting.sketches.base import WIDE, roller_support, scale_of, sketched
 from linkwright.words import _

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.pictures.drawing import PIXELS
-from linkwright.pictures.svg.render import natural_size
+from linkwright.pictures.svg import natural_size
 from linkwright.plotting.diagrams.base import title_of
 from linkwright.plotting.diagrams.pages import link_forces
 from linkwright.reports.document import Block, Figure, Heading, Paragraph, literal, symbols

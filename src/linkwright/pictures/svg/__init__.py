@@ -1,1 +1,0 @@
-"""SVG text, and pictures made of it."""
