@@ -10,7 +10,7 @@ from linkwright.formula.trace import reciprocal, sqrt
 from linkwright.fields.base import Quantities
 from linkwright.fields.references import LinkName, LinkNames, PointPair
 from linkwright.joints.base import HigherPair
-from linkwright.mechanism.wheel_sizes import WheelSizes, wheel_sizes
+from linkwright.mechanism.wheels_and_cams import WheelSizes, wheel_sizes
 from linkwright.plotting.drawing.joint_marks import Mark, marks
 
 

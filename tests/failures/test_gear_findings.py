@@ -11,7 +11,7 @@ from tests.refusals import checked, findings, refused, said
 
 import linkwright as lw
 from linkwright.machine import steady_running
-from linkwright.mechanism.wheel_sizes import wheel_sizes
+from linkwright.mechanism.wheels_and_cams import wheel_sizes
 
 HEAD = """format: 1
 frame: {points: {O: [0 mm, 0 mm], Q: [60 mm, 0 mm], R: [30 mm, 51.96152422706632 mm], G: [0 mm, -20 mm],

@@ -11,7 +11,7 @@ from tests.refusals import refused
 
 import linkwright as lw
 from linkwright import sensitivity
-from linkwright.mechanism.wheel_sizes import wheel_sizes
+from linkwright.mechanism.wheels_and_cams import wheel_sizes
 
 RPM = np.pi / 30.0
 ALPHA = np.radians(20.0)

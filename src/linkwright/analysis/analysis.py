@@ -31,8 +31,7 @@ from linkwright.formula.recently_made import Recent
 from linkwright.kinematics.motion import TURN, Motion
 from linkwright.kinematics.names import HARMONIC, output_meant
 from linkwright.kinetostatics.forces import ROUNDING, Forces
-from linkwright.kinetostatics.programs import words_name
-from linkwright.kinetostatics.solver import ForceSolver
+from linkwright.kinetostatics.solver import ForceSolver, words_name
 
 Result: TypeAlias = "Motion | Forces | Analysis"
 Kind = Literal["max", "min"]

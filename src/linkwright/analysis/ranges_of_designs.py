@@ -29,7 +29,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.programs import Manner
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinematics.solver import MotionSolver
-from linkwright.kinetostatics.programs import force_programs
+from linkwright.kinetostatics.solver import force_programs
 from linkwright.mechanism.mechanism import Mechanism
 
 #: Newton steps, and the last one's size, rad.

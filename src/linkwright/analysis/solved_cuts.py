@@ -21,8 +21,8 @@ from linkwright.events.stretches import Stretches
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.friction import FrictionTerm, joint_rate, moving_rate
-from linkwright.kinetostatics.programs import signed_name
 from linkwright.kinetostatics.signals import MotionSignals
+from linkwright.kinetostatics.solver import signed_name
 
 #: Share of the cycle over which slopes of signals are taken.
 NEARBY = 1e-9

@@ -15,8 +15,7 @@ from linkwright.cli.session import Session, bold, styled_lines
 from linkwright.cli.solving import Solved, closeness, extremes_of, input_text, largest_reactions, leading, point_keys
 from linkwright.core.arrays import largest
 from linkwright.core.table import Column, Table
-from linkwright.kinetostatics.forces import Forces
-from linkwright.mechanism.force_names import reaction_pairs, rubbing_guides
+from linkwright.kinetostatics.forces import Forces, reaction_pairs, rubbing_guides
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.topology import Structure
 from linkwright.topology.analysis import turned_against

@@ -27,10 +27,9 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import no_output, of_forces, results_meant
 from linkwright.kinematics.proof import Proof, prove
 from linkwright.kinematics.solve import solve_motion
-from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.forces import Forces, reaction_pairs
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.kinetostatics.table import results_of
-from linkwright.mechanism.force_names import reaction_pairs
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _
 

@@ -31,13 +31,11 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_meant, program_names
 from linkwright.kinematics.programs import Manner
 from linkwright.kinematics.solver import MotionSolver
-from linkwright.kinetostatics.friction import FrictionTerm, moving_rate
-from linkwright.kinetostatics.friction_stage import can_be_traced
+from linkwright.kinetostatics.friction import FrictionTerm, can_be_traced, moving_rate
 from linkwright.kinetostatics.load_site import ACTS, acts_name, angle_between, guide_state, middle_name, output_value
 from linkwright.kinetostatics.named_outputs import Named, Quantity
-from linkwright.kinetostatics.programs import ForcePrograms, force_programs
-from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.kinetostatics.traced_loads import TURNING, AlongInput, numbers_of_loads
+from linkwright.kinetostatics.signals import TURNING, AlongInput, MotionSignals, numbers_of_loads
+from linkwright.kinetostatics.solver import ForcePrograms, force_programs
 from linkwright.mechanism.mechanism import Mechanism
 
 #: Change of an angle between two positions, or from a line, rad, up to which there is no doubt how often it turned.

@@ -35,9 +35,8 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.solve import MotionRun, solve_motion
 from linkwright.kinetostatics.named_outputs import Quantity
-from linkwright.kinetostatics.programs import words_name
 from linkwright.kinetostatics.run import run_forces, solve_forces
-from linkwright.kinetostatics.solver import ForceSolver
+from linkwright.kinetostatics.solver import ForceSolver, words_name
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _
 

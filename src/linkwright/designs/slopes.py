@@ -26,12 +26,11 @@ from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
 from linkwright.formula.summaries import Backend
 from linkwright.formula.table import Tables
-from linkwright.kinetostatics.friction_stage import MOST, can_be_traced
+from linkwright.kinetostatics.friction import MOST, can_be_traced
 from linkwright.kinetostatics.load_site import acts_name, middle_name
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.kinetostatics.run import run_forces
-from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
+from linkwright.kinetostatics.signals import AlongInput, MotionSignals, numbers_of_loads
 from linkwright.words import _
 
 

@@ -28,12 +28,11 @@ from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.programs import Manner, motion_programs
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinematics.solver import MotionSolver
-from linkwright.kinetostatics.friction_stage import can_be_traced
+from linkwright.kinetostatics.friction import can_be_traced
 from linkwright.kinetostatics.load_site import turns_steadily
 from linkwright.kinetostatics.named_outputs import Named, Quantity
-from linkwright.kinetostatics.signals import MotionSignals
+from linkwright.kinetostatics.signals import TURNING, AlongInput, MotionSignals, numbers_of_loads, traced_magnitude
 from linkwright.kinetostatics.solver import ForceSolver
-from linkwright.kinetostatics.traced_loads import TURNING, AlongInput, numbers_of_loads, traced_magnitude
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _
 

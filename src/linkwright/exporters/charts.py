@@ -13,7 +13,7 @@ from linkwright.core.arrays import Floats, largest
 from linkwright.core.table import Column
 from linkwright.exporters.results import Results
 from linkwright.exporters.tables import QUANTITIES
-from linkwright.mechanism.force_names import reaction_pairs
+from linkwright.kinetostatics.forces import reaction_pairs
 from linkwright.pictures.diagram import COLOURS
 from linkwright.pictures.picture import round_up
 from linkwright.plotting.diagrams.base import title_of

@@ -13,7 +13,7 @@ from linkwright.files.reader import Reader
 from linkwright.joints.base import Joint
 from linkwright.mechanism.link import Link, Vec
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.mechanism.wheel_sizes import disc_radii
+from linkwright.mechanism.wheels_and_cams import disc_radii
 from linkwright.units import number
 from linkwright.words import _
 

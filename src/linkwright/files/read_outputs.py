@@ -14,7 +14,7 @@ from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place
 from linkwright.fields.references import resolve_output
 from linkwright.files.reader import Reader
-from linkwright.mechanism.named_output import NamedOutput
+from linkwright.mechanism.mechanism import NamedOutput
 from linkwright.words import Message, _
 
 #: First dimensions that a formula is taken for, where several have the same powers.

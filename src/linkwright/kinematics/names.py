@@ -11,8 +11,7 @@ from typing import NoReturn
 from linkwright.applied_loads.signals import place_named
 from linkwright.core.outputs import KINDS, NAMED, POINT, RATIO, RESIDUALS, SLIDE, Output, row_names
 from linkwright.errors import RequestError
-from linkwright.mechanism.mechanism import Mechanism
-from linkwright.mechanism.named_output import named_outputs
+from linkwright.mechanism.mechanism import Mechanism, named_outputs
 from linkwright.registry import no_such, offered
 from linkwright.words import Message, _
 

@@ -28,8 +28,7 @@ from linkwright.kinematics.names import output_meant
 from linkwright.kinematics.positions import CycleError, Positions
 from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.trace import MotionTrace
-from linkwright.mechanism.mechanism import Mechanism
-from linkwright.mechanism.named_output import NamedOutput
+from linkwright.mechanism.mechanism import Mechanism, NamedOutput
 
 #: A divisor that is not above this, SI, is zero but for rounding: the formula has no value there.
 ZERO = 1e-12

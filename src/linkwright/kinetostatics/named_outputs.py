@@ -23,8 +23,7 @@ from linkwright.kinematics.output_formulas import traced_course
 from linkwright.kinematics.programs import MotionPrograms
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.closure import closable, conditioning, half_transmission, transmission
-from linkwright.kinetostatics.outputs import ForceOutputs
-from linkwright.kinetostatics.trace import ForceTrace
+from linkwright.kinetostatics.trace import ForceOutputs, ForceTrace
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.words import _

@@ -21,9 +21,8 @@ from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.friction import FrictionTerm
-from linkwright.kinetostatics.programs import caused_name
 from linkwright.kinetostatics.signals import MotionSignals
-from linkwright.kinetostatics.solver import ForceSolver
+from linkwright.kinetostatics.solver import ForceSolver, caused_name
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.units import format as spelled
 from linkwright.words import Message, _

@@ -18,7 +18,7 @@ from linkwright.words import Message, _
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion, Rows
     from linkwright.kinematics.trace import MotionOutputs
-    from linkwright.kinetostatics.outputs import ForceOutputs
+    from linkwright.kinetostatics.trace import ForceOutputs
 
 #: What a balance may be off, as share of the largest force of the machine at that position, and a power, as share of
 #: that force times the largest speed. Rounding leaves some 1e-15 of them, near singular positions as well, where the

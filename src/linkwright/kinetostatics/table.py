@@ -13,7 +13,7 @@ from linkwright.core.table import dataframe
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.link_balance import load_outputs, motion_outputs
-from linkwright.mechanism.named_output import named_outputs
+from linkwright.mechanism.mechanism import named_outputs
 
 if TYPE_CHECKING:
     import pandas

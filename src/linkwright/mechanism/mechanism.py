@@ -1,4 +1,4 @@
-"""The one type for a mechanism: frozen, in SI units, checked, not solved."""
+"""The one type for a mechanism, frozen, in SI units, checked, not solved; and outputs that a model names itself."""
 
 from __future__ import annotations
 
@@ -6,11 +6,13 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from linkwright.applied_loads.base import Load
 from linkwright.core.arguments import require
 from linkwright.core.attached import attached
+from linkwright.core.expressions import Expression
+from linkwright.core.outputs import Output, rate_dimension
 from linkwright.core.read_only import Frozen, FrozenDict, frozen
 from linkwright.drivers.base import Driver
 from linkwright.errors import LinkwrightError, RequestError
@@ -19,14 +21,39 @@ from linkwright.fields.references import PLACE
 from linkwright.joints.base import Joint
 from linkwright.joints.lower_pair import RigidJoint, SlidingJoint, TurningJoint
 from linkwright.mechanism.link import Link, Vec
-from linkwright.mechanism.named_output import NamedOutput
 from linkwright.registry import nearest, no_such
 from linkwright.units import LARGEST_OF_ALL, SI_UNITS, Dimension
 from linkwright.words import _
 from linkwright.words.sentence import in_language
 
-if TYPE_CHECKING:
-    from linkwright.core.expressions import Expression
+
+@dataclass(frozen=True)
+class NamedOutput:
+    """An output by a formula of the machine's places and rates, its parameters, and named outputs before it.
+
+    ``dimension``: name of the dimension of its value; ``rates``: how many of its derivatives in time are known, 2 of
+    a formula of places, 1 where velocities are in it, 0 where accelerations are.
+    """
+
+    name: str
+    expression: Expression
+    dimension: str
+    rates: int
+
+    @property
+    def outputs(self) -> tuple[Output, ...]:
+        """Its value and its rates as outputs of the machine."""
+        found = [Output("named", self.name, measured=self.dimension)]
+        while len(found) <= self.rates and rate_dimension(found[-1].dimension):
+            found.append(found[-1].rate)
+        return tuple(found)
+
+
+def named_outputs(outputs: Mapping[str, NamedOutput]) -> dict[str, Output]:
+    """Values and rates of named outputs as outputs, by the names they go by: ``gap``, ``gap.rate``."""
+    return {each.name: each for named in outputs.values() for each in named.outputs}
+
+
 #: What has dimensions of its own.
 _SORTS = ("link", "joint", "driver", "load")
 

@@ -32,8 +32,8 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.friction import FrictionTerm, traced_rate
 from linkwright.kinetostatics.load_site import TracedSite, guide_state
 from linkwright.kinetostatics.run import solve_forces
+from linkwright.kinetostatics.signals import AlongInput, numbers_of_loads
 from linkwright.kinetostatics.solver import ForceSolver
-from linkwright.kinetostatics.traced_loads import AlongInput, numbers_of_loads
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.page.dimensions import geometry_addresses
 from linkwright.page.loads import angles, found_again, interval, moving_name, phases, traced_name

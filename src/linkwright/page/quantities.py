@@ -11,7 +11,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.json_data import Plain
 from linkwright.core.outputs import KINDS, Output, row_names
 from linkwright.kinematics.names import canonical
-from linkwright.mechanism.force_names import reaction_pairs
+from linkwright.kinetostatics.forces import reaction_pairs
 from linkwright.page.programs import PagePrograms
 from linkwright.words import LANGUAGES, Message, _
 

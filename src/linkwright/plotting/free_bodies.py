@@ -18,10 +18,8 @@ from linkwright.core.arrays import Floats
 from linkwright.core.outputs import owners_of
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import placements
-from linkwright.kinetostatics.applied_wrenches import AppliedWrench, applied_wrenches
-from linkwright.kinetostatics.forces import Forces
-from linkwright.kinetostatics.link_balance import driver_wrenches
-from linkwright.mechanism.force_names import link_numbers
+from linkwright.kinetostatics.forces import Forces, link_numbers
+from linkwright.kinetostatics.link_balance import AppliedWrench, applied_wrenches, driver_wrenches
 from linkwright.pictures.drawing import Sketch, bounds
 from linkwright.pictures.labels import Label
 from linkwright.pictures.picture import GRAPHICAL, Line, SvgNode, round_up

@@ -17,9 +17,9 @@ from linkwright.groups.base import DYADS
 from linkwright.joints.cam import CamJoint
 from linkwright.kinematics.groups import complete_form, dyad_shape, in_one_step
 from linkwright.kinematics.motion import Motion
-from linkwright.mechanism.force_names import link_numbers
+from linkwright.kinetostatics.forces import link_numbers
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.mechanism.wheel_sizes import wheel_sizes
+from linkwright.mechanism.wheels_and_cams import wheel_sizes
 from linkwright.words import Translate, _, say
 from linkwright.words.sentence import link_label
 

@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.outputs import KINDS, RESIDUALS, Output
 from linkwright.core.quantity import MISSING, SHOWN, fixed
-from linkwright.mechanism.force_names import link_numbers
+from linkwright.kinetostatics.forces import link_numbers
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.reports.document import literal, noted
 from linkwright.words import Translate

@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.drivers.base import Driver
 from linkwright.kinematics.names import canonical
-from linkwright.mechanism.force_names import link_numbers
+from linkwright.kinetostatics.forces import link_numbers
 from linkwright.pictures.labels import TO_UNITS, UNIT, Label, Name, put
 from linkwright.pictures.picture import MIN_TEXT, Circle, Fill, Line, Pen, Picture, Vec, as_runs, indexed, joined
 from linkwright.pictures.symbols.base import SYMBOLS, vec

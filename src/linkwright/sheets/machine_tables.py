@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import significant
-from linkwright.mechanism.force_names import link_numbers, reaction_index, reaction_pairs
+from linkwright.kinetostatics.forces import link_numbers, reaction_index, reaction_pairs
 from linkwright.pictures.picture import Runs, Words, as_runs, indexed, joined
 from linkwright.pictures.svg import split_index
 from linkwright.sheets.panel import TablePanel

@@ -10,7 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import per_mm
-from linkwright.mechanism.force_names import link_numbers
+from linkwright.kinetostatics.forces import link_numbers
 from linkwright.pictures.labels import Name, put
 from linkwright.pictures.picture import MIN_TEXT, Picture, as_runs, indexed, joined
 from linkwright.plotting.diagrams.marks import LOW

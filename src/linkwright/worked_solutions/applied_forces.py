@@ -18,8 +18,8 @@ from linkwright.core.outputs import owners_of
 from linkwright.equations.steps import Step
 from linkwright.equations.terms import FOUR, NOWHERE, ZERO, Pair, Term, cosine, root, sine, symbol
 from linkwright.fields.references import LinkPoint
-from linkwright.kinetostatics.applied_wrenches import AppliedWrench, applied_wrenches
 from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.link_balance import AppliedWrench, applied_wrenches
 from linkwright.words import _
 from linkwright.worked_solutions.symbols import PointState, SymbolTable
 

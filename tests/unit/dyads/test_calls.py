@@ -13,7 +13,7 @@ from tests.reference.random_mechanisms import random_mechanism
 import linkwright as lw
 from linkwright.dyads.calls import FORMAL, calls
 from linkwright.dyads.plan import line_of, plan
-from linkwright.mechanism.force_names import link_numbers
+from linkwright.kinetostatics.forces import link_numbers
 
 STEPS = 12
 

@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 from tests.refusals import refused
 
 from linkwright.joints.base import Joint, LackingError
-from linkwright.mechanism.wheel_sizes import disc_radii, wheel_sizes
+from linkwright.mechanism.wheels_and_cams import disc_radii, wheel_sizes
 from linkwright.page.contacts import contact_shape
 from linkwright.plotting.drawing.joint_marks import marks as marks_of
 from linkwright.worked_solutions.higher_pairs import contact_of

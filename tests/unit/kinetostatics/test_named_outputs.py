@@ -22,7 +22,7 @@ from linkwright.kinematics.names import output_names
 from linkwright.kinematics.programs import AS_IT_IS, motion_programs
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.named_outputs import Named, Quantity
-from linkwright.kinetostatics.programs import force_programs
+from linkwright.kinetostatics.solver import force_programs
 
 Floats = NDArray[np.float64]
 

@@ -15,7 +15,7 @@ from tests.ui.browser import Opened, needs_chromium
 from tests.ui.pages import STEPS, page, page_of
 
 import linkwright as lw
-from linkwright.mechanism.cam_shape import CamShape
+from linkwright.mechanism.wheels_and_cams import CamShape
 from linkwright.plotting.drawing.joint_marks import marks as marks_of
 
 pytestmark = needs_chromium

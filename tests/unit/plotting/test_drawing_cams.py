@@ -9,7 +9,7 @@ from tests.every import every
 
 import linkwright as lw
 from linkwright.kinematics.placement import placements
-from linkwright.mechanism.cam_shape import CamShape
+from linkwright.mechanism.wheels_and_cams import CamShape
 from linkwright.plotting.drawing.joint_marks import Mark, marks
 from linkwright.plotting.drawing.vectors import force_vectors
 

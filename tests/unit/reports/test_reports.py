@@ -19,8 +19,8 @@ from linkwright.equations.latex import latex
 from linkwright.errors import LinkwrightError, speaker
 from linkwright.files.schema import json_schema
 from linkwright.joints.cam import CamJoint
-from linkwright.mechanism.cam_shape import CamShape
-from linkwright.mechanism.force_names import reaction_pairs
+from linkwright.kinetostatics.forces import reaction_pairs
+from linkwright.mechanism.wheels_and_cams import CamShape
 from linkwright.pictures.svg import natural_size
 from linkwright.reports.document import Figure, Formula, Heading, Paragraph, Table, plain
 from linkwright.reports.key_names import MODEL_KEYS

@@ -33,7 +33,7 @@ def run(options: Options, session: Session) -> int:
     from linkwright.cli.files import read_model
     from linkwright.kinematics.rank_of_motion import rank_sentence
     from linkwright.kinematics.structure_with_rank import analysed
-    from linkwright.kinetostatics.program_of_results import program_of_results
+    from linkwright.kinetostatics.solver import program_of_results
 
     mechanism, _findings = read_model(options.file, session)
     structure = analysed(mechanism)

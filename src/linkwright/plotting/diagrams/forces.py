@@ -17,12 +17,11 @@ from linkwright.core.quantity import significant
 from linkwright.core.search import first_largest
 from linkwright.cycle.summary import SummaryValue
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.forces import Forces, chosen_pairs
 from linkwright.machine.equivalent import Equivalent, equivalent
 from linkwright.machine.running import SteadyRunning
 from linkwright.machine.speed import SpeedCurve
 from linkwright.machine.torque_curve import EnergyFluctuation
-from linkwright.mechanism.force_names import chosen_pairs
 from linkwright.pictures.diagram import COLOURS, FAINT, INK, Axes, Figure, new_figure
 from linkwright.plotting.diagrams.axes import InputAxis, Legend, Unit, make_force_plane, unit_of
 from linkwright.plotting.diagrams.base import DIAGRAMS, Kind, Request, framed

@@ -8,8 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from linkwright.errors import speaker
-from linkwright.kinetostatics.forces import Forces
-from linkwright.mechanism.force_names import link_numbers
+from linkwright.kinetostatics.forces import Forces, link_numbers
 from linkwright.pictures.drawing import Drawing
 from linkwright.pictures.svg import fold
 from linkwright.plotting.diagrams.axes import unit_of

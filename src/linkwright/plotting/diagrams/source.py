@@ -21,11 +21,10 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
 from linkwright.kinematics.positions import at_times
 from linkwright.kinematics.solve import solve_motion
-from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.forces import Forces, reaction_pairs
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.kinetostatics.table import results_of
 from linkwright.machine.running import SteadyRunning, steady_running
-from linkwright.mechanism.force_names import reaction_pairs
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plotting.diagrams.axes import SYMBOLS, InputAxis, unit_of
 from linkwright.words import Translate, _

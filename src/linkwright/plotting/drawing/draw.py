@@ -13,7 +13,7 @@ from linkwright.errors import LinkwrightError, RequestError, require_language
 from linkwright.events.limit_positions import limits_of
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
-from linkwright.mechanism.force_names import link_numbers
+from linkwright.kinetostatics.forces import link_numbers
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.pictures.drawing import Box, Drawing, Sketch
 from linkwright.pictures.labels import Label

@@ -16,8 +16,8 @@ from linkwright.joints.cam import CamJoint
 from linkwright.joints.gear import GearPair
 from linkwright.joints.rack import RackPair
 from linkwright.joints.rolling import RollingPair
-from linkwright.mechanism.cam_shape import CamShape, full_turn
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.mechanism.wheels_and_cams import CamShape, full_turn
 from linkwright.pictures.symbols.base import SYMBOLS, Shape
 from linkwright.plotting.drawing.machine import DrawnMechanism, Part
 

@@ -15,7 +15,7 @@ from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
 from linkwright.joints.base import HigherPair
 from linkwright.kinematics.names import canonical, find_point
-from linkwright.mechanism.force_names import Symbol, reaction_index, reaction_pairs
+from linkwright.kinetostatics.forces import Symbol, reaction_index, reaction_pairs
 from linkwright.pictures.labels import Label
 from linkwright.pictures.symbols.base import EMPTY, SYMBOLS, Shape, joined, vec
 from linkwright.plotting.drawing.joint_marks import touching

@@ -12,7 +12,7 @@ from linkwright.equations.reading import read, read_name
 from linkwright.errors import LinkwrightError
 from linkwright.gears.gear import Gear
 from linkwright.gears.pair import GearPair, gear_pair
-from linkwright.mechanism.wheel_sizes import WheelSizes, wheel_sizes
+from linkwright.mechanism.wheels_and_cams import WheelSizes, wheel_sizes
 from linkwright.reports.document import Block, Figure, Formula, Heading, Paragraph, literal, printed
 from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.section import section

@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.core.table import Amount, Cell, Table
 from linkwright.errors import LinkwrightError
-from linkwright.mechanism.force_names import reaction_pairs, rubbing_guides
+from linkwright.kinetostatics.forces import reaction_pairs, rubbing_guides
 from linkwright.plotting.diagrams.base import title_of
 from linkwright.reports.document import Block, Figure, Paragraph, literal, printed
 from linkwright.reports.machine_results import ReportContext
