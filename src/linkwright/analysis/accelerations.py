@@ -8,7 +8,7 @@ from typing import ClassVar
 from linkwright.analysis.analysis import Analysis
 from linkwright.analysis.base import METRICS, Better, Metric, Number
 from linkwright.analysis.outputs import free_points
-from linkwright.cycle.summary import Summary
+from linkwright.cycle.summaries import Summary
 from linkwright.words import _
 
 

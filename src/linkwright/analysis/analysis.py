@@ -22,8 +22,7 @@ from linkwright.core.outputs import Output, row_names
 from linkwright.cycle.cycle import Cycle
 from linkwright.cycle.machine import Machine, NotTogether
 from linkwright.cycle.solved import Solved
-from linkwright.cycle.summaries import OF_LIMITS
-from linkwright.cycle.summary import StrokeSummary, Summary, SummaryValue
+from linkwright.cycle.summaries import OF_LIMITS, StrokeSummary, Summary, SummaryValue
 from linkwright.errors import LinkwrightError
 from linkwright.events.course import Course
 from linkwright.events.limit_positions import limit_positions

@@ -15,7 +15,7 @@ from linkwright.analysis.analysis import Analysis, Result
 from linkwright.core.outputs import Output
 from linkwright.core.quantity import shown, shown_unit
 from linkwright.core.table import Amount, Cell
-from linkwright.cycle.summary import Summary, SummaryValue
+from linkwright.cycle.summaries import Summary, SummaryValue
 from linkwright.formula.trace import Scalar
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import Registry

@@ -12,7 +12,7 @@ import numpy as np
 from linkwright.analysis.analysis import Analysis
 from linkwright.analysis.base import METRICS, Better, Metric, MetricValue, Number, Remark
 from linkwright.core.quantity import shown
-from linkwright.cycle.summary import Summary
+from linkwright.cycle.summaries import Summary
 from linkwright.joints.lower_pair import TurningJoint
 from linkwright.words import _
 

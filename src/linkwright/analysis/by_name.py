@@ -17,7 +17,7 @@ from linkwright.analysis.of_output import OWN, Asked, own_metric
 from linkwright.analysis.outputs import turns_fully
 from linkwright.core.arguments import one_or_more
 from linkwright.core.search import first_largest
-from linkwright.cycle.summary import KINDS, Summary, SummaryValue
+from linkwright.cycle.summaries import KINDS, Summary, SummaryValue
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.formula.trace import Scalar, absolute, minimum, select
 from linkwright.kinematics.names import PHRASES, output_meant

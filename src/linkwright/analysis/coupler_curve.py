@@ -18,7 +18,7 @@ from linkwright.core.plane import cross, crossings
 from linkwright.core.quantity import shown
 from linkwright.core.search import lowest
 from linkwright.curves.curve import increasing, nodes
-from linkwright.cycle.summary import Summary
+from linkwright.cycle.summaries import Summary
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces

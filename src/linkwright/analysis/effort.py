@@ -7,7 +7,7 @@ from typing import ClassVar
 
 from linkwright.analysis.analysis import Analysis
 from linkwright.analysis.base import METRICS, Better, Metric, Number
-from linkwright.cycle.summary import Summary
+from linkwright.cycle.summaries import Summary
 from linkwright.formula.trace import Scalar, absolute, select
 from linkwright.words import Message, _
 

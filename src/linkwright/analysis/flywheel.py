@@ -12,7 +12,7 @@ import numpy as np
 from linkwright.analysis.analysis import Analysis
 from linkwright.analysis.base import METRICS, Better, Metric, Number
 from linkwright.analysis.true_speed import TrueSpeedSummary, steady_cycle
-from linkwright.cycle.summary import Summary
+from linkwright.cycle.summaries import Summary
 from linkwright.errors import LinkwrightError
 from linkwright.formula.trace import Scalar, maximum, select
 from linkwright.kinetostatics.forces import Forces

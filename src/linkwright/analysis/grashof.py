@@ -12,7 +12,7 @@ from math import hypot
 from linkwright.analysis.analysis import Analysis
 from linkwright.analysis.base import METRICS, Metric, MetricValue, Number, Remark
 from linkwright.core.quantity import shown
-from linkwright.cycle.summary import Summary
+from linkwright.cycle.summaries import Summary
 from linkwright.formula.trace import Scalar, maximum, minimum
 from linkwright.joints.lower_pair import TurningJoint
 from linkwright.mechanism.mechanism import Mechanism

@@ -8,7 +8,7 @@ from linkwright.analysis.analysis import Analysis
 from linkwright.analysis.base import METRICS, Metric, MetricValue, Number
 from linkwright.applied_loads.signals import Limit
 from linkwright.core.outputs import Output
-from linkwright.cycle.summary import Summary
+from linkwright.cycle.summaries import Summary
 from linkwright.words import _
 
 #: Digits of rad or m behind which values are the same.

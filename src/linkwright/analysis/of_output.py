@@ -11,7 +11,7 @@ from linkwright.analysis.base import Better, Metric, Number
 from linkwright.analysis.flywheel import SIZED
 from linkwright.analysis.outputs import turns_fully
 from linkwright.core.outputs import Output
-from linkwright.cycle.summary import Summary
+from linkwright.cycle.summaries import Summary
 from linkwright.kinematics.names import find_point
 from linkwright.mechanism.mechanism import Mechanism
 

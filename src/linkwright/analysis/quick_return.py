@@ -12,7 +12,7 @@ import numpy as np
 from linkwright.analysis.analysis import Analysis
 from linkwright.analysis.base import METRICS, Metric, Number
 from linkwright.core.outputs import Output
-from linkwright.cycle.summary import Summary, SummaryValue
+from linkwright.cycle.summaries import Summary, SummaryValue
 from linkwright.formula.trace import Scalar, floor, maximum
 from linkwright.words import _
 

@@ -15,7 +15,7 @@ from linkwright.analysis.outputs import output_link
 from linkwright.analysis.transmission_angle import smallest
 from linkwright.core.quantity import shown
 from linkwright.core.search import zeros
-from linkwright.cycle.summary import Summary
+from linkwright.cycle.summaries import Summary
 from linkwright.drivers.base import Law
 from linkwright.formula.trace import Scalar, floor
 from linkwright.kinetostatics.closure import dyads

@@ -10,7 +10,7 @@ import numpy as np
 from linkwright.analysis.analysis import Analysis
 from linkwright.analysis.base import METRICS, Better, Metric, Number
 from linkwright.core.arrays import Floats
-from linkwright.cycle.summary import Summary
+from linkwright.cycle.summaries import Summary
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _

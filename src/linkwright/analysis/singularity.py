@@ -9,7 +9,7 @@ from typing import ClassVar
 from linkwright.analysis.analysis import Analysis
 from linkwright.analysis.base import METRICS, Better, Metric, MetricValue, Number, Remark
 from linkwright.core.quantity import shown
-from linkwright.cycle.summary import Summary
+from linkwright.cycle.summaries import Summary
 from linkwright.elements.topology import Group
 from linkwright.kinetostatics.closure import closable
 from linkwright.words import _

@@ -13,9 +13,8 @@ from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.outputs import Output
 from linkwright.core.search import first_largest
 from linkwright.curves.pieces import LOW, Pieces
-from linkwright.cycle.summaries import EVEN, Asked, Extremes, Summaries
+from linkwright.cycle.summaries import EVEN, Asked, Extremes, StrokeSummary, Summaries, Summary, SummaryValue
 from linkwright.cycle.summaries import Signal as Named
-from linkwright.cycle.summary import StrokeSummary, Summary, SummaryValue
 from linkwright.kinematics.motion import Motion
 
 #: An output with its limit positions.

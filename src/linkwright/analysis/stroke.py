@@ -9,7 +9,7 @@ from linkwright.analysis.base import METRICS, Metric, MetricValue, Number
 from linkwright.analysis.outputs import turns_fully
 from linkwright.analysis.range_of_motion import between, reached_inputs
 from linkwright.core.outputs import Output
-from linkwright.cycle.summary import Summary
+from linkwright.cycle.summaries import Summary
 from linkwright.words import _
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from linkwright.analysis.analysis import Analysis, finds
-from linkwright.cycle.summary import Summary, SummaryValue
+from linkwright.cycle.summaries import Summary, SummaryValue
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.equivalent import Equivalent, equivalent
 from linkwright.machine.flywheel import flywheel_inertia

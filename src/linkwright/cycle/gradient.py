@@ -14,7 +14,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.curves.pieces import HIGH, LOW
 from linkwright.curves.polynomials import NODES, WEIGHTS, weights_at
-from linkwright.cycle.block import ByColumns
+from linkwright.cycle.cycle import ByColumns
 from linkwright.cycle.solved import Solved
 from linkwright.cycle.summaries import Signal
 

@@ -17,10 +17,16 @@ from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output, RelativeAngle
 from linkwright.curves.pieces import HIGH, LOW
 from linkwright.events.course import Course
-from linkwright.events.following import ITERATIONS, ChainCoordinate, chain_coordinates, path_states, stays_on_path
 from linkwright.events.formula import NODE, Formula, Known
-from linkwright.events.path_step import PathStep
 from linkwright.events.path_tracker import PathTracker
+from linkwright.events.tracked_groups import (
+    ITERATIONS,
+    ChainCoordinate,
+    PathStep,
+    chain_coordinates,
+    path_states,
+    stays_on_path,
+)
 from linkwright.formula.program import Program
 from linkwright.formula.recently_made import Recent
 from linkwright.formula.replay import inlined

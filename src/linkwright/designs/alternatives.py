@@ -17,7 +17,7 @@ from linkwright.analysis.outputs import mechanism_outputs
 from linkwright.core.arguments import require
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
-from linkwright.cycle.summary import Summary
+from linkwright.cycle.summaries import Summary
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.files.model_file import load
 from linkwright.kinematics.motion import Motion

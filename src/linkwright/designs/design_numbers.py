@@ -21,7 +21,7 @@ from linkwright.core.arguments import STEPS
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.progress import Progress, paced, part_of
 from linkwright.core.search import first_largest
-from linkwright.cycle.summary import Summary
+from linkwright.cycle.summaries import Summary
 from linkwright.designs.checkpoints import checkpointed, current_checkpoints, identity
 from linkwright.designs.traced_outputs import Traced
 from linkwright.errors import LinkwrightError, RequestError

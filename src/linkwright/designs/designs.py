@@ -19,7 +19,7 @@ from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.quantity import shown
 from linkwright.core.read_only import Frozen
 from linkwright.core.table import Table, Tabular, columns_table, unused
-from linkwright.cycle.summary import Summary
+from linkwright.cycle.summaries import Summary
 from linkwright.designs.cluster import current, in_order, in_turn
 from linkwright.designs.design_numbers import OF_VALUES, swept_numbers
 from linkwright.designs.failures import Failure, explained

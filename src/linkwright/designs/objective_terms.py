@@ -14,11 +14,11 @@ from linkwright.core.arguments import real
 from linkwright.core.arrays import Floats
 from linkwright.cycle.load_limits import FoundLimits
 from linkwright.cycle.machine import CLEAR
-from linkwright.cycle.summary import KINDS, Summary
+from linkwright.cycle.summaries import KINDS, Summary
 from linkwright.designs.traced_outputs import VALID, LoadedCycle, Traced, friction_doubt, loaded_cycle
 from linkwright.errors import RequestError
-from linkwright.events.following import ITERATIONS
-from linkwright.events.tracked_states import TrackedStates, tracked_states
+from linkwright.events.path_tracker import TrackedStates, tracked_states
+from linkwright.events.tracked_groups import ITERATIONS
 from linkwright.formula.gradient import Gradient
 from linkwright.formula.program import Program
 from linkwright.formula.summaries import Backend

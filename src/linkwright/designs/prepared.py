@@ -12,8 +12,7 @@ from linkwright.applied_loads.strokes import turned
 from linkwright.core.arguments import STEPS, one_of, require
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
-from linkwright.cycle.load_limits import LoadLimits
-from linkwright.cycle.near_limits import NearLimits
+from linkwright.cycle.load_limits import LoadLimits, NearLimits
 from linkwright.designs.traced_outputs import LoadedCycle, Traced, loaded_cycle
 from linkwright.designs.varied_dimensions import checked_addresses
 from linkwright.errors import LinkwrightError, RequestError

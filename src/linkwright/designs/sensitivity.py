@@ -14,7 +14,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.attached import PlotMixin
 from linkwright.core.read_only import Frozen, locked
 from linkwright.core.table import Amount, Cell, Table, Tabular, unused
-from linkwright.cycle.summary import Summary
+from linkwright.cycle.summaries import Summary
 from linkwright.designs.design_numbers import OF_VALUES
 from linkwright.designs.objective import over_metrics
 from linkwright.designs.objective_terms import differentiable

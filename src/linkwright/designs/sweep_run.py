@@ -11,14 +11,14 @@ import numpy as np
 from linkwright.core.arrays import Flags, Floats, Indices, Integers
 from linkwright.core.progress import Progress, current_progress, paced
 from linkwright.cycle.load_limits import FoundLimits
-from linkwright.cycle.summary import Summary, finished, reductions
+from linkwright.cycle.summaries import Summary, finished, reductions
 from linkwright.designs.checkpoints import checkpointed, identity
 from linkwright.designs.design_numbers import changes_of, motion_alone, outputs_alone, places_in, summary_of
 from linkwright.designs.failures import ChangePoints, near_enough
 from linkwright.designs.traced_outputs import NEAREST, VALID, LoadedCycle, Traced, loaded_cycle
 from linkwright.errors import LinkwrightError, SelfCheckError
-from linkwright.events.following import ITERATIONS
-from linkwright.events.tracked_states import TrackedStates, tracked_states
+from linkwright.events.path_tracker import TrackedStates, tracked_states
+from linkwright.events.tracked_groups import ITERATIONS
 from linkwright.files.write import dump
 from linkwright.formula.llvm_backend import compile_program
 from linkwright.formula.machine_code import available

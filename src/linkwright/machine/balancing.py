@@ -13,7 +13,7 @@ from linkwright.core.arguments import STEPS, real, require
 from linkwright.core.attached import PlotMixin
 from linkwright.core.read_only import Frozen
 from linkwright.core.table import PERCENT, ROUNDING, Amount, Cell, Table, Tabular
-from linkwright.cycle.summary import Summary
+from linkwright.cycle.summaries import Summary
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.files.write import dump
 from linkwright.joints.base import Joint

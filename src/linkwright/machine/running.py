@@ -17,7 +17,7 @@ from linkwright.core.attached import PlotMixin
 from linkwright.core.quantity import shown
 from linkwright.core.rows import Block, Numbers, Row
 from linkwright.core.table import PERCENT
-from linkwright.cycle.summary import Summary
+from linkwright.cycle.summaries import Summary
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinetostatics.forces import Forces
 from linkwright.machine.equivalent import Equivalent, steady_rate

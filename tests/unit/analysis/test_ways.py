@@ -9,7 +9,7 @@ from tests.store import machine as stored
 import linkwright as lw
 from linkwright.analysis import Analysis
 from linkwright.curves.curve import Curve
-from linkwright.cycle.summary import Summary
+from linkwright.cycle.summaries import Summary
 
 
 @pytest.mark.parametrize("frame", [4.0, 4.9, 4.99, 4.999])

@@ -9,7 +9,7 @@ from linkwright.cycle.cycle import Cycle
 from linkwright.cycle.gradient import Backward
 from linkwright.cycle.machine import Machine
 from linkwright.cycle.solved import Solved
-from linkwright.cycle.summary import Summary
+from linkwright.cycle.summaries import Summary
 
 PARTS = ["driver.effort mean", "driver.effort rms", "driver.effort peak", "power max", "driver.effort excess"]
 #: Machines with parts, what varies (the speed, the ends of phases, cams and lengths), outputs with limits.

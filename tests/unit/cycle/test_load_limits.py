@@ -8,9 +8,8 @@ import linkwright as lw
 from linkwright.applied_loads.phases import MovingPhase, SwingPhase
 from linkwright.applied_loads.strokes import Amount, StrokePart
 from linkwright.core.outputs import Output
-from linkwright.cycle.load_limits import LoadLimits
+from linkwright.cycle.load_limits import LoadLimits, NearLimits
 from linkwright.cycle.machine import Machine
-from linkwright.cycle.near_limits import NearLimits
 from linkwright.kinetostatics.load_site import limit_name, value_name
 
 

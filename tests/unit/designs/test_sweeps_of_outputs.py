@@ -12,7 +12,7 @@ import linkwright as lw
 from linkwright.analysis import Analysis
 from linkwright.analysis.by_name import measured
 from linkwright.cli import main
-from linkwright.cycle.summary import KINDS
+from linkwright.cycle.summaries import KINDS
 
 #: A crank that lifts a weight, of which a press takes part from 42° on, between two of 36 positions.
 PRESS = """

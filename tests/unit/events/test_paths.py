@@ -19,10 +19,10 @@ from linkwright.cycle.cycle import Cycle
 from linkwright.cycle.gradient import Backward
 from linkwright.cycle.machine import Machine
 from linkwright.cycle.solved import Solved
-from linkwright.cycle.summary import Summary
-from linkwright.events.following import ITERATIONS, Paths
+from linkwright.cycle.summaries import Summary
 from linkwright.events.formula import ROW
-from linkwright.events.tracked_states import TrackedStates
+from linkwright.events.path_tracker import TrackedStates
+from linkwright.events.tracked_groups import ITERATIONS, Paths
 from linkwright.kinematics.programs import Manner
 from linkwright.kinematics.solver import MotionSolver
 

@@ -12,9 +12,8 @@ from tests.every import every
 from tests.unit.kinematics.slotted_triad import SLOTTED
 
 import linkwright as lw
-from linkwright.events.following import ITERATIONS
-from linkwright.events.path_step import Place
-from linkwright.events.tracked_states import TrackedStates
+from linkwright.events.path_tracker import TrackedStates
+from linkwright.events.tracked_groups import ITERATIONS, Place
 from linkwright.kinematics.branch import CORRECTION, LARGEST, MISFIT, ROOM
 from linkwright.kinematics.positions import at_times
 from linkwright.kinematics.programs import Manner

@@ -12,7 +12,7 @@ from tests.invariants.output_driven import turning
 
 import linkwright as lw
 from linkwright.analysis import Analysis
-from linkwright.events.path_step import PathStep
+from linkwright.events.tracked_groups import PathStep
 from linkwright.kinematics.between_positions import Between
 from linkwright.kinematics.branch import CORRECTION, MISFIT, Branch, Node, _Walk, follow, straight
 from linkwright.kinematics.continuation import BranchTracker

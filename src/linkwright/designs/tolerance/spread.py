@@ -11,7 +11,7 @@ import numpy as np
 
 from linkwright.analysis.by_name import wanted
 from linkwright.core.arrays import Floats, Integers
-from linkwright.cycle.summary import Summary
+from linkwright.cycle.summaries import Summary
 from linkwright.designs.design_numbers import OF_VALUES
 from linkwright.designs.designs import Sweep, sweep, sweep_curves
 from linkwright.designs.sensitivity import CURVE, Sensitivity, sensitivity

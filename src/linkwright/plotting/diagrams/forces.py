@@ -15,7 +15,7 @@ from linkwright.core.arrays import Floats, largest
 from linkwright.core.outputs import Output
 from linkwright.core.quantity import significant
 from linkwright.core.search import first_largest
-from linkwright.cycle.summary import SummaryValue
+from linkwright.cycle.summaries import SummaryValue
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinetostatics.forces import Forces, chosen_pairs
 from linkwright.machine.equivalent import Equivalent, equivalent

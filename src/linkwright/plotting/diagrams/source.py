@@ -15,7 +15,7 @@ from linkwright.core.arguments import CURVE_STEPS
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.outputs import RESIDUALS, Output
 from linkwright.core.search import first_largest
-from linkwright.cycle.summary import SummaryValue
+from linkwright.cycle.summaries import SummaryValue
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical

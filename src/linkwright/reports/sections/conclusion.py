@@ -13,7 +13,7 @@ from linkwright.analysis.analysis import Analysis
 from linkwright.analysis.base import METRICS, MetricValue
 from linkwright.core.outputs import Output
 from linkwright.core.quantity import shown
-from linkwright.cycle.summary import Summary
+from linkwright.cycle.summaries import Summary
 from linkwright.designs.evaluation import value_text
 from linkwright.errors import LinkwrightError
 from linkwright.plotting.diagrams.source import main_outputs

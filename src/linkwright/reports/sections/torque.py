@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from linkwright.analysis.analysis import Analysis
-from linkwright.cycle.summary import Summary
+from linkwright.cycle.summaries import Summary
 from linkwright.equations.reading import sides
 from linkwright.reports.document import Block, Formula, Paragraph, Table
 from linkwright.reports.machine_results import Missing, ReportContext
