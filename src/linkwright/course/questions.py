@@ -131,7 +131,7 @@ def braceless(text: str) -> str:
 def sheets(found: Variants, language: str) -> Files:
     """One page per variant: drawing, data, numbers asked for."""
     from linkwright.reports.document import Block, Document, Figure, Heading, Paragraph, Source, Table, literal
-    from linkwright.reports.font_scaling import font_scaling
+    from linkwright.reports.pictures import font_scaling
     from linkwright.reports.typst_pages import compiled
 
     say = speaker(language)

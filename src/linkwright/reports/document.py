@@ -14,8 +14,7 @@ from dataclasses import dataclass, field, replace
 from linkwright.core.table import Table as Cells
 from linkwright.equations.notation import Row
 from linkwright.equations.reading import read_name
-from linkwright.reports.formula import formula
-from linkwright.reports.formula_lines import width
+from linkwright.reports.formula import formula, width
 from linkwright.words import Translate, _
 from linkwright.words.characters import cells
 from linkwright.words.sentence import in_language

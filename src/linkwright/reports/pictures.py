@@ -1,24 +1,29 @@
-"""Pictures that a model file names for its report: read, checked, and held as SVG like all others."""
+"""Pictures in a report: those that a file names, and drawings scaled so that their letters can be read."""
 
 from __future__ import annotations
 
 import base64
 import io
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from urllib.parse import unquote
 
 from linkwright.errors import LinkwrightError
+from linkwright.pictures.drawing import PIXELS
 from linkwright.pictures.svg import natural_size, png
+from linkwright.plotting.drawing.machine import DIAGONAL
+from linkwright.plotting.drawing.scene import LINK_SIZE
+from linkwright.reports.typst_pages import TEXT
 from linkwright.words import _
 
 #: Endings of pictures, and the name of their form; largest file, bytes.
 FORMS = {".png": "png", ".jpg": "jpeg", ".jpeg": "jpeg", ".svg": "svg"}
 LARGEST = 20_000_000
 #: Dots per inch at which a picture has its own size, its shares of the page's width, the width of the text, inches.
-DOTS, SMALLEST, WIDEST, TEXT = 150.0, 0.25, 0.85, 6.69
+DOTS, SMALLEST, WIDEST, INCHES = 150.0, 0.25, 0.85, 6.69
 
 
 _NO_PICTURE = _(
@@ -73,7 +78,7 @@ def _read(path: Path, name: str, changed: int, size: int) -> Picture:
     else:
         svg, across = _photograph(content, FORMS[path.suffix.lower()], name)
         wide = across / DOTS
-    return Picture(svg, min(max(wide / TEXT, SMALLEST), WIDEST))
+    return Picture(svg, min(max(wide / INCHES, SMALLEST), WIDEST))
 
 
 def _drawing(content: bytes, name: str) -> str:
@@ -131,3 +136,31 @@ def _photograph(content: bytes, form: str, name: str) -> tuple[str, int]:
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{wide}" height="{high}" viewBox="0 0 {wide} {high}">'
         f'<image width="{wide}" height="{high}" href="data:image/{form};base64,{data}"/></svg>'
     ), wide
+
+
+#: A point of printers, mm.
+POINT = 25.4 / 72
+#: Letters of link names that are large enough, and those aimed at else, points: margins do not shrink with the
+#: machine; the smallest diagonal.
+ENOUGH, AIM, SMALLEST_DIAGONAL = 6.5, 7.2, 260.0
+
+
+def font_scaling(drawn: Callable[[float], str], share: float, tallest: float) -> str:
+    """A drawing for a share of the page's width and a height, mm: smaller where its letters would be too small.
+
+    ``drawn`` gives its SVG text for a diagonal of the machine.
+    """
+    svg = drawn(DIAGONAL)
+    size = printed_letters(svg, share, tallest)
+    return svg if size >= ENOUGH else drawn(max(DIAGONAL * size / AIM, SMALLEST_DIAGONAL))
+
+
+def printed_letters(svg: str, share: float, tallest: float) -> float:
+    """Size of the letters of link names where a drawing is printed, points."""
+    wide, high = natural_size(svg)
+    return LINK_SIZE * min(share * TEXT / wide, tallest / high) / POINT
+
+
+def own_share(svg: str) -> float:
+    """The share of the page's width in which a drawing has its own size."""
+    return natural_size(svg)[0] / PIXELS / TEXT

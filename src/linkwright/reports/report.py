@@ -1,4 +1,4 @@
-"""From models to a report: sections chosen and ordered, written as PDF, HTML or DOCX."""
+"""From models to a report with its cover: sections chosen, written as PDF, HTML or DOCX."""
 
 from __future__ import annotations
 
@@ -16,12 +16,10 @@ from linkwright.files.source import GALLERY
 from linkwright.filesystem import atomic_write, refuse_target
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem
-from linkwright.reports.assembly import add_part, note_dangling
-from linkwright.reports.cover import cover
-from linkwright.reports.document import Document, Source, walk
+from linkwright.reports.assembly import Calculation, add_part, chosen, note_dangling, parts
+from linkwright.reports.document import Cover, Document, Source, walk
 from linkwright.reports.machine_results import ReportContext
-from linkwright.reports.order import Calculation, chosen, parts
-from linkwright.reports.settings import settings, worked_place
+from linkwright.reports.settings import COVER_ROWS, Settings, settings, worked_place
 from linkwright.synthesis.tasks import TaskFile, task_file
 from linkwright.words import _
 
@@ -230,3 +228,20 @@ def _cases(
 def _picture_folder(folder: str | Path, file: str) -> str:
     """Where pictures lie: a folder that is named, else that of the file."""
     return str(folder) if folder or file.startswith(GALLERY) else os.path.dirname(file)
+
+
+def cover(own: Settings, document: Document) -> Cover | None:
+    """The page before all others, None where the file asks for none."""
+    words, say = own.cover, document.say
+    if words is None:
+        return None
+    rows = [(say(COVER_ROWS[key]), value) for key, value in words.rows]
+    above = tuple(filter(None, (words.school, own.course)))
+    return Cover(
+        words.kind or say(_("Course design report")),
+        document.title,
+        above,
+        (*rows, *words.fields),
+        words.date,
+        words.logo,
+    )

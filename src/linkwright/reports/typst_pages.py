@@ -34,9 +34,8 @@ from linkwright.reports.document import (
     spans,
     walk,
 )
-from linkwright.reports.formula_lines import set_lines, width
-from linkwright.reports.typst_formula import quoted, typst
-from linkwright.reports.typst_style import COVER, HEAD, STYLE
+from linkwright.reports.formula import set_lines, width
+from linkwright.reports.typst_parts import COVER, HEAD, STYLE, quoted, typst
 from linkwright.words import _
 from linkwright.words.characters import cells
 

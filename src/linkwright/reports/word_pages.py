@@ -30,13 +30,14 @@ from linkwright.reports.document import (
     plain,
     spans,
 )
-from linkwright.reports.formula_lines import set_lines
-from linkwright.reports.word_formula import SPACE, equation
+from linkwright.reports.formula import set_lines
 from linkwright.reports.word_parts import (
     SMALL,
+    SPACE,
     TEXT,
     add_cover,
     as_item,
+    equation,
     field_mark,
     listing,
     ruled,

@@ -42,7 +42,7 @@ LEFT: Mapping[str, tuple[int, str]] = {
     "plotting/flow_chart/content.py": (3, "words of a flow chart for gears, cams and laws"),
     "sheets/kinds/cam.py": (3, "the sheet of a cam, of a machine's too"),
     "cams/joint.py": (2, "designs the cam of a cam joint"),
-    "reports/sections/cams.py": (2, "the section of reports on the design of cams"),
+    "reports/sections/gears_and_cams.py": (2, "the section of reports on the design of cams"),
     "worked_solutions/cams.py": (1, "the formulas of a cam joint, which asks for them"),
     "worked_solutions/lifts.py": (1, "the same, of its lift"),
     "worked_solutions/wheels.py": (1, "the same, from the joint's hook to them"),

@@ -22,7 +22,7 @@ from linkwright.plotting.sketches.base import SKETCHES
 from linkwright.reports.document import Figure, Formula, Heading, Paragraph, Table, plain
 from linkwright.reports.formula import formula
 from linkwright.reports.report import report
-from linkwright.reports.typst_formula import typst
+from linkwright.reports.typst_parts import typst
 from linkwright.words import _, say
 
 NAMES = parts.gallery_names()

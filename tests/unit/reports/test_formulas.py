@@ -11,11 +11,10 @@ import linkwright as lw
 from linkwright.equations.notation import Atom, Row
 from linkwright.errors import speaker
 from linkwright.reports.document import Document, Formula
-from linkwright.reports.formula import formula
-from linkwright.reports.formula_lines import lines, set_lines, width
-from linkwright.reports.typst_formula import typst
-from linkwright.reports.word_formula import SPACE, equation
+from linkwright.reports.formula import formula, lines, set_lines, width
+from linkwright.reports.typst_parts import typst
 from linkwright.reports.word_pages import word
+from linkwright.reports.word_parts import SPACE, equation
 
 SIGN = Atom("sign", "=")
 

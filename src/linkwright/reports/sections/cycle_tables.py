@@ -1,4 +1,4 @@
-"""Tables over the cycle, positions numbered from a limit position."""
+"""Tables over the cycle, positions numbered from a limit position, and all numbers in an appendix."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from linkwright.words import Message, _
 
 
 @section("tables", _("Tables over the cycle"), 6.0)
-def blocks(case: ReportContext) -> Iterator[Block]:
+def tables(case: ReportContext) -> Iterator[Block]:
     """Angles and rates of links, guides, points; joint forces and driver effort: at the numbered positions."""
     say, numbered = case.say, case.numbered
     count = str(len(numbered.rows))
@@ -178,3 +178,24 @@ def leading(case: ReportContext) -> tuple[tuple[str, ...], list[tuple[str, ...]]
         heads.append(f"$q$ / {case.input_unit}")
         columns.append([case.input_text(float(value)) for value in motion.input[rows]])
     return tuple(heads), list(zip(*columns, strict=True))
+
+
+@section("appendix", _("Appendix: all numbers"), 30.0)
+def appendix(case: ReportContext) -> Iterator[Block]:
+    """Every column of the result."""
+    say = case.say
+    try:
+        columns = without_rounding(force_results(case.numbered_forces))
+    except LinkwrightError:
+        columns = without_rounding(motion_results(case.numbered.motion))
+    yield Paragraph(
+        say(
+            _(
+                "All results at the numbered positions; $\\Delta P$ and $\\Delta F$ are what is left "
+                "over in the balance of powers and of forces."
+            )
+        )
+    )
+    alone = len(case.mechanism.drivers) < 2
+    names = [each for each in columns if each.kind != "input" or not alone]
+    yield from varying(case, _("All results"), columns, names)

@@ -1,4 +1,4 @@
-"""Joint forces over the cycle and their hodographs."""
+"""Joint forces over the cycle with hodographs, free-body diagrams, and equilibrium as one linear system."""
 
 from __future__ import annotations
 
@@ -9,14 +9,19 @@ import numpy as np
 
 from linkwright.core.table import Amount, Cell, Table
 from linkwright.errors import LinkwrightError
-from linkwright.kinetostatics.forces import reaction_pairs, rubbing_guides
+from linkwright.kinetostatics.forces import Forces, reaction_pairs, rubbing_guides
+from linkwright.parts.statics.structure import balance_step, structure_balance
 from linkwright.plotting.diagrams.base import title_of
+from linkwright.plotting.free_bodies import idle_loads
+from linkwright.plotting.free_body_pages import free_body_pages
 from linkwright.reports.document import Block, Figure, Paragraph, literal, printed
-from linkwright.reports.machine_results import ReportContext
+from linkwright.reports.machine_results import NO_LOADS, Missing, ReportContext
 from linkwright.reports.numbers import ROUNDING, faded
+from linkwright.reports.pictures import own_share
 from linkwright.reports.section import section
 from linkwright.reports.sections.curves import SHARE
 from linkwright.reports.sections.curves import TALLEST as SHORT
+from linkwright.reports.sections.method import step_blocks
 from linkwright.words import _
 from linkwright.words.sentence import in_words
 
@@ -31,7 +36,7 @@ CAPTIONS = {
 
 
 @section("reactions", _("Joint forces"), 8.0, optional=True)
-def blocks(case: ReportContext) -> Iterator[Block]:
+def reactions(case: ReportContext) -> Iterator[Block]:
     """Sizes of all joint forces, the largest of each, and their hodographs."""
     say, _unused = case.say, case.forces
     yield Paragraph(
@@ -107,3 +112,57 @@ def _figures(
             continue
         title = case.say(_("{caption} (continued)", caption=caption)) if number else caption
         yield Figure(title, ((picture, share),), "" if number else kind, tallest)
+
+
+@section("balance", _("Equilibrium in matrix form"), 8.4, optional=True)
+def balance(case: ReportContext) -> Iterator[Block]:
+    """Names of unknowns and rows, the matrix, and its solution, of a machine without drivers."""
+    result = None if case.mechanism.drivers else case.result
+    found = structure_balance(result) if isinstance(result, Forces) else None
+    if found is None:
+        raise Missing(
+            _(
+                "only a structure of pins, guides and welds without drivers has a matrix of equilibrium",
+                code="report.no_balance",
+            )
+        )
+    yield from step_blocks(balance_step(found, "1", case.say))
+
+
+#: Height of a figure, mm, that a page has room for, and of the pictures below the text that begins the section.
+PAGE, FIRST = 228.0, 178.0
+
+
+@section("free_bodies", _("Free-body diagrams"), 8.45, optional=True)
+def free_bodies(case: ReportContext) -> Iterator[Block]:
+    """All that acts on each link, drawn and in numbers."""
+    say = case.say
+    forces, index = case.worked_result
+    if not isinstance(forces, Forces):
+        raise Missing(NO_LOADS)
+    pages = free_body_pages(forces, index, say, case.language, first=FIRST)
+    place = literal(case.worked_text)
+    message = (
+        _(
+            "{figure} shows every link by itself, in its position at {place}, with all that acts on "
+            "it; the links come in the order of the force analysis. A joint force F with the "
+            "index 12 is what link 1 exerts on link 2."
+        )
+        if place
+        else _(
+            "{figure} shows every link by itself with all that acts on it; the links come in the "
+            "order of the force analysis. A joint force F with the index 12 is what link 1 "
+            "exerts on link 2."
+        )
+    )
+    yield Paragraph(say(message.format(figure="[[free-bodies]]", place=place)))
+    if idle := idle_loads(forces, index):
+        yield Paragraph(literal(say(_("Not acting at this position: {names}.", names=", ".join(idle)))), "note")
+    caption = say(_("Free-body diagrams of the links"))
+    for number, svg in enumerate(pages, 1):
+        shown = (
+            caption
+            if len(pages) == 1
+            else say(_("{caption} ({number} of {count})", caption=caption, number=number, count=len(pages)))
+        )
+        yield Figure(shown, ((svg, own_share(svg)),), "free-bodies" if number == 1 else "", PAGE)

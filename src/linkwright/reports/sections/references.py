@@ -1,4 +1,4 @@
-"""References of the methods that the report used."""
+"""References of the methods that the report used, and mistakes of the source."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from linkwright.core.table import Table
 from linkwright.elements.topology import Group
 from linkwright.errors import LinkwrightError
 from linkwright.groups.base import DYADS
-from linkwright.reports.document import Block, Sources, literal, printed
-from linkwright.reports.machine_results import ReportContext
+from linkwright.reports.document import Block, Paragraph, Sources, literal, printed
+from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.markdown import own_words
 from linkwright.reports.section import section
-from linkwright.reports.settings import Settings
-from linkwright.words import _
+from linkwright.reports.settings import Erratum, Settings
+from linkwright.words import Translate, _, language_of
 
 
 @section("references", _("References"), 31.0, common=True)
-def blocks(cases: Sequence[ReportContext]) -> Iterator[Block]:
+def references(cases: Sequence[ReportContext]) -> Iterator[Block]:
     """Own sources of the files, sources of the machines and of the groups' formulas, each once; where the design
     numbers are defined. Nothing where none is known."""
     found: dict[str, str] = {}
@@ -77,3 +77,27 @@ def _of_group(signature: str) -> list[str]:
     quoted = re.findall(r"\(([^()]*(?:ch\.|pp?\.|§|,)[^()]*)\)\.?", text)
     parts = [part.strip() for part in quoted[-1].split(";")] if quoted else []
     return [part for part in parts if part[:1].isupper()]
+
+
+@section("errata", _("Mistakes of the source"), 13.0, optional=True)
+def errata(case: ReportContext) -> Iterator[Block]:
+    """What is printed in the source, what is right, and why."""
+    say, found = case.say, case.settings.errata
+    if not found:
+        raise Missing(_("the file tells of no mistakes of its source", code="report.no_errata"))
+    yield from errata_blocks(found, case.origin, say)
+
+
+def errata_blocks(found: Sequence[Erratum], source: str, say: Translate) -> Iterator[Block]:
+    """The mistakes of a source as a table."""
+    yield Paragraph(
+        say(
+            _(
+                "The numbers of the source ({source}) were compared with those of this report. Where they differ:",
+                source=literal(source or "–"),
+            )
+        )
+    )
+    rows = [(e.where, e.printed, e.right, e.why) for e in found]
+    table = Table((_("where"), _("printed"), _("right"), _("why")), rows, "<<<<", _("Mistakes of the source"))
+    yield printed(table, language_of(say), "errata")

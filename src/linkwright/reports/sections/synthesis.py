@@ -9,8 +9,7 @@ from linkwright.reports.calculation import OwnText
 from linkwright.reports.document import Block, Figure, Heading, Paragraph, literal, symbols
 from linkwright.reports.machine_results import Missing, ReportContext, picture
 from linkwright.reports.section import section
-from linkwright.reports.sections.method import printed
-from linkwright.reports.sections.worked_position import to_scale
+from linkwright.reports.sections.method import step_blocks, to_scale
 from linkwright.reports.settings import Settings
 from linkwright.synthesis.result import Synthesis, SynthesisError
 from linkwright.synthesis.tasks import TaskFile
@@ -66,7 +65,7 @@ def _chapter(found: Synthesis, language: str) -> Iterator[Block]:
     say, solution = speaker(language), found.worked(language)
     for step in solution.steps:
         yield Heading(symbols(step.title), 2)
-        yield from printed(step)
+        yield from step_blocks(step)
         for kind in solution.pictures.get(step.number, ()):
             yield from _figure(found, kind, language)
     yield from _figure(found, "synthesis", language)

@@ -1,4 +1,4 @@
-"""Task and data: purpose, source, dimensions, masses, joints, drivers, loads."""
+"""Task and data: purpose, source, dimensions, masses, joints, drivers, loads; and the kinematic drawing."""
 
 from __future__ import annotations
 
@@ -12,12 +12,15 @@ import numpy as np
 from linkwright.core.quantity import number
 from linkwright.core.table import Amount, Cell, Table
 from linkwright.drivers.base import LABELS as DRIVER_LAWS
+from linkwright.errors import LinkwrightError
 from linkwright.files.write import to_data
 from linkwright.joints.base import PAIRS
 from linkwright.laws.base import LABELS
-from linkwright.reports.document import Block, Paragraph, literal, printed
+from linkwright.plotting.drawing.draw import draw
+from linkwright.reports.document import Block, Figure, Paragraph, literal, printed
 from linkwright.reports.key_names import MODEL_KEYS, VALUES
 from linkwright.reports.machine_results import ReportContext
+from linkwright.reports.pictures import font_scaling
 from linkwright.reports.section import section
 from linkwright.words import Message, Translate, _, pgettext
 
@@ -59,7 +62,7 @@ KINDS: Mapping[str, Message] = {
 
 
 @section("task", _("Task and data"), 1.0)
-def blocks(case: ReportContext) -> Iterator[Block]:
+def task(case: ReportContext) -> Iterator[Block]:
     """What the machine is for, and everything that is given about it."""
     say, mechanism = case.say, case.mechanism
     if case.purpose:
@@ -180,3 +183,39 @@ def _rounded(text: str) -> str:
         value, unit = 1e3 * value, " mm"
     turns = f" ({value * 30.0 / math.pi:.6g} rpm)" if unit.strip() == "rad/s" else ""
     return f"{value:.6g}{unit}{turns}"
+
+
+#: Share of the width and height, mm, of a drawing: two of them share a page.
+WIDE, TALLEST = 0.85, 104.0
+
+
+@section("drawing", _("Kinematic drawing"), 2.0)
+def drawing(case: ReportContext) -> Iterator[Block]:
+    """The machine at the worked position, and its limit positions."""
+    say = case.say
+    motion, index = case.worked_motion
+    yield Paragraph(
+        say(
+            _(
+                "The machine in the standard symbols is shown in {figure}, at the position that is worked out below.",
+                figure="[[drawing]]",
+            )
+        )
+    )
+    language = case.language
+
+    def shown(diagonal: float) -> str:
+        return draw(motion, position=index, centres=True, diagonal=diagonal, language=language).svg
+
+    def faded(diagonal: float) -> str:
+        limits = draw(case.motion, overlay="limits", labels="points", diagonal=diagonal, language=language)
+        return limits.svg
+
+    loaded = any(link.mass for link in case.mechanism.links.values()) or bool(case.mechanism.loads)
+    caption = say(_("Kinematic drawing with mass centres and loads") if loaded else _("Kinematic drawing"))
+    yield Figure(caption, ((font_scaling(shown, WIDE, TALLEST), WIDE),), "drawing", TALLEST)
+    try:
+        limits = font_scaling(faded, WIDE, TALLEST)
+    except LinkwrightError:
+        return
+    yield Figure(say(_("Limit positions of the output, dashed")), ((limits, WIDE),), "limit-drawing", TALLEST)

@@ -1,25 +1,29 @@
-"""Limit positions, quick-return ratio, transmission angle, and all other design numbers."""
+"""Limit positions and design numbers of a machine, and the comparison of all machines of the report."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from linkwright.analysis.base import CELLS, MetricValue
 from linkwright.analysis.table import cells_of_values
 from linkwright.core.quantity import number
 from linkwright.core.table import Table
+from linkwright.designs.evaluation import ranking, sentences
 from linkwright.equations.reading import sides
-from linkwright.reports.document import Block, Formula, Paragraph, literal, printed
+from linkwright.errors import LinkwrightError
+from linkwright.reports.document import Block, Figure, Formula, Heading, Paragraph, literal, printed
 from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.section import section
 from linkwright.words import _
+from linkwright.words.sentence import in_language
 
 #: Numbers that other sections print.
 ELSEWHERE = ("peak_reaction", "rms_reaction", "flywheel")
 
 
 @section("limits", _("Limit positions and design numbers"), 10.0, optional=True)
-def blocks(case: ReportContext) -> Iterator[Block]:
+def limits(case: ReportContext) -> Iterator[Block]:
     """Design numbers of the motion and the forces, with the limits that are recommended."""
     say = case.say
     rows = [row for row in case.metrics if row.metric not in ELSEWHERE]
@@ -55,3 +59,44 @@ def _quick_return(case: ReportContext, rows: list[MetricValue]) -> Iterator[Bloc
             )
         )
         yield Formula(sides(f"K = {symbols} = {numbers} = {ratio.value:.5g}"))
+
+
+@section("comparison", _("Comparison and evaluation"), 20.0, optional=True, common=True)
+def comparison(cases: Sequence[ReportContext]) -> Iterator[Block]:
+    """Design numbers side by side, best values marked; ranking with reasons; evaluation."""
+    from linkwright.designs.compare import compare
+
+    if len(cases) < 2:
+        raise Missing(
+            _("there is one machine only; name two or more files to compare them", code="report.one_machine")
+        )
+    first = cases[0]
+    say = first.say
+    try:
+        found = compare([case.mechanism for case in cases], fluctuation=first.settings.fluctuation)
+    except LinkwrightError as error:
+        if error.code == "study.no_common_output":
+            raise Missing(error.sentence) from None
+        raise
+    table = found.tables(first.language)[0]
+    head = [literal(in_language(each, first.language)) for each in table.head]
+    alternatives = replace(table, head=head, title=_("Design numbers of the alternatives"))
+    yield printed(alternatives, first.language, "comparison")
+    for note in table.notes:
+        yield Paragraph(literal(note))
+    yield Heading(say(_("Ranking")), 2)
+    for line in ranking(found, say):
+        yield Paragraph(literal(line.strip()), "bullet" if line.startswith(" ") else "")
+    yield Heading(say(_("Evaluation")), 2)
+    for line in sentences(found, first.language):
+        yield Paragraph(literal(line))
+    for kind, caption in (
+        ("comparison", _("The alternatives over each other")),
+        ("pivot_hodograph", _("Hodographs of the force in the output's pivot")),
+    ):
+        try:
+            picture = first.diagram(kind, found)
+        except LinkwrightError as error:
+            yield Paragraph(literal(first.message(error)), "missing")
+            continue
+        yield Figure(say(caption), ((picture, 0.95),), kind)

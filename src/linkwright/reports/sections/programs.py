@@ -1,4 +1,4 @@
-"""The machine in the subprograms of the teaching texts: numbers of points and links, formal and actual arguments."""
+"""The solution as a program: its flow chart, the calls of the teaching subprograms, a Python program."""
 
 from __future__ import annotations
 
@@ -6,12 +6,49 @@ from collections.abc import Iterator, Sequence
 
 from linkwright.core.table import Table
 from linkwright.dyads.calls import FORMAL, Call, Calls, NumberedLink, NumberedPoint, calls, length
+from linkwright.dyads.listing import Listing
 from linkwright.dyads.plan import plan
-from linkwright.reports.document import Block, Code, Heading, Paragraph, literal, printed
+from linkwright.errors import LinkwrightError
+from linkwright.kinetostatics.forces import Forces
+from linkwright.plotting.flow_chart import TALLEST, flow_chart_pages
+from linkwright.plotting.solution_steps import flow_chart_steps
+from linkwright.reports.document import Block, Code, Figure, Heading, Paragraph, literal, printed
 from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.numbers import typeset
+from linkwright.reports.pictures import own_share
 from linkwright.reports.section import section
 from linkwright.words import _, pgettext
+
+
+@section("flow", _("Flow chart of the solution"), 3.5)
+def flow(case: ReportContext) -> Iterator[Block]:
+    """The steps of the solution over the numbered positions, in as many pages as they need."""
+    say, numbered = case.say, case.numbered
+    nodes = flow_chart_steps(numbered.motion, numbered.rows, case.language)
+    message = (
+        _(
+            "{figure} shows in which order the machine is solved: what each step needs is known "
+            "from the steps before it. The calls have the names of the teaching texts (bark, "
+            "rrrk …); i counts the numbered positions."
+        )
+        if case.mechanism.drivers
+        else _(
+            "{figure} shows in which order the machine is solved: what each step needs is known "
+            "from the steps before it. The calls have the names of the teaching texts (rrrk, "
+            "rrrf …)."
+        )
+    )
+    yield Paragraph(say(message.format(figure="[[flow]]")))
+    caption = say(_("Flow chart of the solution"))
+    pages = flow_chart_pages(nodes, caption)
+    for number, svg in enumerate(pages, 1):
+        shown = (
+            caption
+            if len(pages) == 1
+            else say(_("{caption} ({number} of {count})", caption=caption, number=number, count=len(pages)))
+        )
+        yield Figure(shown, ((svg, own_share(svg)),), "flow" if number == 1 else "", TALLEST)
+
 
 #: Why steps have no call of their own.
 KINDS = {
@@ -21,7 +58,7 @@ KINDS = {
 
 
 @section("calls", _("Calls of the teaching subprograms"), 14.0, optional=True)
-def blocks(case: ReportContext) -> Iterator[Block]:
+def subprogram_calls(case: ReportContext) -> Iterator[Block]:
     """Numbering, the calls in solving order, a table of formal and actual arguments for every subprogram."""
     say = case.say
     numbered = case.numbered
@@ -134,3 +171,37 @@ def _tables(case: ReportContext, group: Sequence[Call]) -> Iterator[Block]:
             rows = [(", ".join(call.links), *map(typeset, call.actual)) for call in mine]
             title = _("{name}: formal arguments (head) and actual ones", name=name)
             yield printed(Table(head, rows, "<" + "^" * len(FORMAL[name]), title), case.language)
+
+
+@section("program", _("Program listing"), 14.5, optional=True)
+def program(case: ReportContext) -> Iterator[Block]:
+    """The program, at the positions of the tables."""
+    say, numbered = case.say, case.numbered
+    try:
+        forces: Forces | None = case.numbered_forces
+    except LinkwrightError:
+        forces = None
+    listing = Listing(numbered.motion, forces, say, rows=numbered.rows, source=case.source, language=case.language)
+    text = listing.text()
+    yield Paragraph(
+        say(
+            _(
+                "The program solves the machine at the {count} positions of the tables, group by "
+                "group in solving order, with the functions of linkwright.dyads, and prints every "
+                "column as comma-separated values in SI units. `linkwright export FILE --to "
+                "solution.py` writes it as a file, over the full cycle.",
+                count=len(listing.rows),
+            )
+        )
+    )
+    if listing.plan.others:
+        yield Paragraph(
+            say(
+                _(
+                    "Groups of which there is no such function are solved by the library; the model file "
+                    "has to be where the program runs."
+                )
+            ),
+            "note",
+        )
+    yield Code(text, "python", say(_("the machine solved with linkwright.dyads")), "program")
