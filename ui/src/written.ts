@@ -1,4 +1,4 @@
-// The text of a machine as it is now, which reads back as that machine: designs/changed_text.py for the page.
+// The text of a machine as it is now, which reads back as that machine: designs/varied_dimensions.py for the page.
 import type { Written } from "./data";
 import type { Call } from "./engine";
 import type { Model } from "./model";

@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.core.json_data import Plain
 from linkwright.core.outputs import row_name
-from linkwright.designs.changed_text import (
+from linkwright.designs.varied_dimensions import (
     Written,
     drawn_dimensions,
     drawn_places,

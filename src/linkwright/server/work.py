@@ -160,7 +160,7 @@ def new_text(language: str = "en") -> str:
 
 def _changed(text: str, values: Mapping[str, float]) -> str:
     """The text with changed dimensions, SI."""
-    from linkwright.designs.changed_text import changed_text
+    from linkwright.designs.varied_dimensions import changed_text
 
     return changed_text(Document(text, "model", read_text), values)
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.designs.changed_text import changed_text, digits
+from linkwright.designs.varied_dimensions import changed_text, digits
 from linkwright.files.document import Document
 from linkwright.files.write import dump
 

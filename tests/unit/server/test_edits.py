@@ -12,7 +12,7 @@ from tests.refusals import refused
 from tests.ui.texts import FOURBAR
 
 import linkwright as lw
-from linkwright.designs.changed_text import changed_text
+from linkwright.designs.varied_dimensions import changed_text
 from linkwright.files.document import Document
 from linkwright.files.model_file import read_text
 from linkwright.server import edits

@@ -16,10 +16,10 @@ from linkwright.core.attached import PlotMixin, attached
 from linkwright.core.quantity import in_kind, number, unit_of_kind, with_unit, written
 from linkwright.core.read_only import Frozen
 from linkwright.core.table import Cell, Table, Tabular
-from linkwright.designs.changed_text import changed_text
 from linkwright.designs.checkpoints import RESUME
 from linkwright.designs.criteria import Criterion
 from linkwright.designs.optimise.problem import Problem
+from linkwright.designs.varied_dimensions import changed_text
 from linkwright.errors import LinkwrightError, speaker
 from linkwright.files.document import Document
 from linkwright.mechanism.mechanism import Mechanism

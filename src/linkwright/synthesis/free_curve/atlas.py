@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from linkwright.core.arrays import Complexes, Floats, Indices, Integers
 from linkwright.formula.machine_code import folder
 from linkwright.formula.threads import cores, spread_over
-from linkwright.synthesis.free_curve.curve_similarity import ANGLES, LANDMARKS, POINTS, REACH, RINGS, TURNS
+from linkwright.synthesis.free_curve.atlas_kernels import ANGLES, LANDMARKS, POINTS, REACH, RINGS, TURNS
 from linkwright.synthesis.free_curve.target import Target, even_points, normal
 from linkwright.synthesis.free_curve.topology import Design, Draw, kernels, node_paths, random_structure, turned_paths
 

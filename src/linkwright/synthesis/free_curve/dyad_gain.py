@@ -13,6 +13,7 @@ from __future__ import annotations
 from math import cos, log, sin, sqrt
 
 from linkwright.formula.kernel import Reals, Wholes, load, store
+from linkwright.synthesis.free_curve.atlas_kernels import spans
 from linkwright.synthesis.free_curve.distances import WIDE, target_to_curve
 from linkwright.synthesis.free_curve.kernels import (
     BLOCK,
@@ -27,7 +28,6 @@ from linkwright.synthesis.free_curve.kernels import (
     place_point,
 )
 from linkwright.synthesis.free_curve.local_search import directions, dot, lay, slopes
-from linkwright.synthesis.free_curve.sample import spans
 
 #: Smoothing ε² of the distances; share of the demanded sin² of a transmission angle.
 SOFT, SLACK = 4e-4, 0.7

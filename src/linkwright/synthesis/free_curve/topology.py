@@ -15,7 +15,7 @@ import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats, Integers
 from linkwright.formula.kernel import Kernels
-from linkwright.synthesis.free_curve.curve_similarity import LIKENESS
+from linkwright.synthesis.free_curve.atlas_kernels import LIKENESS, SAMPLING
 from linkwright.synthesis.free_curve.distances import DISTANCES
 from linkwright.synthesis.free_curve.dyad_gain import PROMISES
 from linkwright.synthesis.free_curve.kernels import (
@@ -31,7 +31,6 @@ from linkwright.synthesis.free_curve.kernels import (
     place,
 )
 from linkwright.synthesis.free_curve.local_search import DESCENT
-from linkwright.synthesis.free_curve.sample import SAMPLING
 from linkwright.synthesis.free_curve.sliding import SLIDING
 
 Node = tuple[int, int, int, int]
