@@ -32,8 +32,6 @@ from .designs.checkpoints import checkpointing as checkpointing
 from .designs.cluster import on_cluster as on_cluster
 from .designs.compare import Comparison as Comparison
 from .designs.compare import compare as compare
-from .designs.designs import Sweep as Sweep
-from .designs.designs import sweep as sweep
 from .designs.objective import Objective as Objective
 from .designs.objective import objective as objective
 from .designs.objective_terms import PathError as PathError
@@ -46,6 +44,8 @@ from .designs.sensitivity import Sensitivity as Sensitivity
 from .designs.sensitivity import sensitivity as sensitivity
 from .designs.study import Study as Study
 from .designs.study import study as study
+from .designs.sweep import Sweep as Sweep
+from .designs.sweep import sweep as sweep
 from .errors import Finding as Finding
 from .errors import LinkwrightError as LinkwrightError
 from .errors import ModelError as ModelError

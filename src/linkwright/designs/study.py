@@ -26,9 +26,9 @@ from linkwright.designs.checkpoints import identity
 from linkwright.designs.cluster import current, in_turn
 from linkwright.designs.criteria import Criterion, criteria
 from linkwright.designs.design_numbers import numbers_of
-from linkwright.designs.designs import sweep
 from linkwright.designs.failures import Failure
 from linkwright.designs.ranges import Range, grid, sobol
+from linkwright.designs.sweep import sweep
 from linkwright.designs.varied_dimensions import varied_ranges
 from linkwright.errors import LinkwrightError, RequestError, with_remedy
 from linkwright.files.write import dump

@@ -52,7 +52,7 @@ CHECKED, CHECK_STEPS = 3, 24
 
 @dataclass(frozen=True)
 class Manner:
-    """How a sweep is done; see :func:`linkwright.designs.designs.sweep`. ``sampled``: summaries are those of the
+    """How a sweep is done; see :func:`linkwright.designs.sweep.sweep`. ``sampled``: summaries are those of the
     positions, else nothing but the motion is wanted of these."""
 
     partial: bool = False
@@ -69,7 +69,7 @@ _few: Recent[Mechanism, dict[int, str]] = Recent(64)
 class SweepRun:
     """Summaries of all designs; ``unloaded``: sentences of the designs whose loads cannot be found; ``alone``:
     numbers of those that are found each by itself; ``margins``: see
-    :attr:`linkwright.designs.designs.Sweep.branch_margin`."""
+    :attr:`linkwright.designs.sweep.Sweep.branch_margin`."""
 
     def __init__(
         self,

@@ -22,8 +22,8 @@ from linkwright.core.arrays import Floats
 from linkwright.core.progress import Progress, current_progress, reporting
 from linkwright.core.table import Amount, Cell, Table, Tabular
 from linkwright.designs.cluster import connected, current, in_turn
-from linkwright.designs.designs import sweep
 from linkwright.designs.ranges import BAD_SEED, Range
+from linkwright.designs.sweep import sweep
 from linkwright.designs.varied_dimensions import varied_ranges
 from linkwright.errors import RequestError
 from linkwright.exporters.export import package

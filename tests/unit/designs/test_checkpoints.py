@@ -16,8 +16,8 @@ from linkwright.core.arrays import Floats
 from linkwright.designs import checkpoints, design_numbers
 from linkwright.designs.checkpoints import _made, _plain
 from linkwright.designs.criteria import Criterion
-from linkwright.designs.designs import sweep_curves
 from linkwright.designs.study import PIECE, _Work
+from linkwright.designs.sweep import sweep_curves
 from linkwright.designs.sweep_run import SweepRun
 from linkwright.formula.reductions import Results
 from linkwright.words import _

@@ -11,7 +11,7 @@ from tests import store
 from tests.every import every
 
 import linkwright as lw
-from linkwright.designs.designs import sweep, sweep_curves
+from linkwright.designs.sweep import sweep, sweep_curves
 from linkwright.designs.sweep_run import SweepRun
 from linkwright.formula.summaries import Backend
 

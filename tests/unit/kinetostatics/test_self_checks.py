@@ -11,7 +11,7 @@ from tests.invariants.checked_machines import FALSIFIED, MODEL
 from tests.refusals import refused
 
 import linkwright as lw
-from linkwright.designs.designs import sweep_curves
+from linkwright.designs.sweep import sweep_curves
 from linkwright.errors import SelfCheckError
 from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Scalar

@@ -23,7 +23,7 @@ import numpy as np
 from linkwright.applied_loads.base import Load
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.outputs import PLACES
-from linkwright.designs.designs import sweep_curves
+from linkwright.designs.sweep import sweep_curves
 from linkwright.designs.tolerance.problem import Clearance, Tolerances
 from linkwright.drivers.base import Driver, Law
 from linkwright.drivers.table import TableLaw

@@ -13,8 +13,8 @@ from linkwright.analysis.by_name import wanted
 from linkwright.core.arrays import Floats, Integers
 from linkwright.cycle.summaries import Summary
 from linkwright.designs.design_numbers import OF_VALUES
-from linkwright.designs.designs import Sweep, sweep, sweep_curves
 from linkwright.designs.sensitivity import CURVE, Sensitivity, sensitivity
+from linkwright.designs.sweep import Sweep, sweep, sweep_curves
 from linkwright.designs.tolerance.pins import FollowedPins, follow, is_position, require_forces, shifts
 from linkwright.designs.tolerance.problem import Limit, Tolerances
 from linkwright.errors import LinkwrightError

@@ -11,8 +11,8 @@ from linkwright.analysis.table import MetricsTable
 from linkwright.core.arrays import Floats
 from linkwright.designs.compare import Comparison, Overlay
 from linkwright.designs.criteria import criterion
-from linkwright.designs.designs import Sweep
 from linkwright.designs.study import Study
+from linkwright.designs.sweep import Sweep
 from linkwright.errors import RequestError
 from linkwright.pictures.diagram import COLOURS, FAINT, Axes, Figure, new_figure
 from linkwright.plotting.diagrams.axes import SYMBOLS, InputAxis, Legend, Unit, make_force_plane, unit_of

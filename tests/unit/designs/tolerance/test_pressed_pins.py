@@ -5,7 +5,7 @@ import pytest
 
 import linkwright as lw
 from linkwright import parts
-from linkwright.designs.designs import sweep_curves
+from linkwright.designs.sweep import sweep_curves
 from linkwright.designs.tolerance import Clearance, Tolerance, ToleranceStudy
 from linkwright.designs.tolerance.pins import exact, is_position
 
