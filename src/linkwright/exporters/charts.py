@@ -11,8 +11,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.table import Column
-from linkwright.exporters.results import Results
-from linkwright.exporters.tables import QUANTITIES
+from linkwright.exporters.results import QUANTITIES, Results
 from linkwright.kinetostatics.forces import reaction_pairs
 from linkwright.pictures.diagram import COLOURS
 from linkwright.pictures.picture import round_up

@@ -1,20 +1,27 @@
-"""What is exported: a motion, with its forces and design numbers where there are any."""
+"""What is exported: a motion with its forces and design numbers, and their tables, one per subject."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from linkwright.analysis.table import MetricsTable
 from linkwright.core.arguments import STEPS, require
+from linkwright.core.arrays import Floats
+from linkwright.core.outputs import KINDS, NAMED
+from linkwright.core.table import Column
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
+from linkwright.kinetostatics.table import results_of
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.words import _
+from linkwright.words import _, pgettext
 
 if TYPE_CHECKING:
     from linkwright.topology import Structure
@@ -77,3 +84,116 @@ class Results:
                 )
             )
         return int(self.motion.ok.argmax())
+
+
+def seconds(motion: Motion) -> float:
+    """Duration of the motion, s; 1 s where there is none."""
+    if motion.positions.period:
+        return float(motion.positions.period)
+    return float(np.ptp(motion.time)) or 1.0
+
+
+#: Rates of a coordinate, by the unit of the coordinate.
+UNITS = {"rad": ("rad", "rad/s", "rad/s²"), "m": ("m", "m/s", "m/s²")}
+SUBJECTS = ("positions", "links", "points", "joints", "forces", "loads", "outputs")
+#: The table of outputs by what they belong to, and by their kind; those of guides stand among all joints.
+OF_OWNER = {"motion": "positions", "link": "links", "point": "points", "joint": "forces", "machine": "forces"}
+OF_KIND = {"input": "positions", "effort": "forces", **dict.fromkeys(NAMED, "outputs")}
+#: Quantities of columns in words.
+QUANTITIES = {
+    "time": _("time"),
+    "angle": _("angle"),
+    "angular_velocity": _("angular velocity"),
+    "angular_acceleration": _("angular acceleration"),
+    "position.x": _("position x"),
+    "position.y": _("position y"),
+    "velocity.x": _("velocity x"),
+    "velocity.y": _("velocity y"),
+    "acceleration.x": _("acceleration x"),
+    "acceleration.y": _("acceleration y"),
+    "displacement": _("displacement"),
+    "velocity": _("velocity"),
+    "acceleration": _("acceleration"),
+    "relative_angle": _("relative angle"),
+    "relative_velocity": _("relative angular velocity"),
+    "relative_acceleration": _("relative angular acceleration"),
+    "rate": _("rate"),
+    "second_rate": _("second rate"),
+    "effort": _("driver effort"),
+    "x": _("force x"),
+    "y": _("force y"),
+    "magnitude": _("force"),
+    "direction": _("direction of the force"),
+    "couple": pgettext("export", "couple"),
+    "shaking_force": _("shaking force"),
+    "shaking_moment": _("shaking moment"),
+    "power_residual": _("power residual"),
+    "balance_residual": _("balance residual"),
+    "force.x": _("force x"),
+    "force.y": _("force y"),
+    "force.magnitude": _("force"),
+    "moment": _("moment about the origin"),
+    "place.x": _("acts at x"),
+    "place.y": _("acts at y"),
+}
+
+
+@dataclass(frozen=True)
+class Subject:
+    """Columns of one subject: ``positions``, ``links``, ``points``, ``joints``, ``forces`` or ``loads``."""
+
+    subject: str
+    columns: tuple[Column, ...]
+
+
+def tables(results: Results) -> list[Subject]:
+    """All tables that have columns; ``positions`` (time and inputs) is the first."""
+    named = results_of(results.motion, results.forces)
+    found: dict[str, list[Column]] = {subject: [] for subject in SUBJECTS}
+    for output, values in named.items():
+        subject = OF_KIND.get(output.kind) or OF_OWNER.get(KINDS[output.kind].of)
+        if subject is not None:
+            alone = output.kind in ("input", "named")
+            owner, quantity = (output.owner, "") if alone else (output.place, output.quantity)
+            found[subject].append(Column(owner, quantity, output.unit, values))
+    found["joints"] += _joints(results)
+    found["loads"] += _loads(results)
+    return [Subject(subject, tuple(columns)) for subject, columns in found.items() if columns]
+
+
+def wide(results: Results) -> dict[str, Column]:
+    """All columns of all tables by name."""
+    return {column.heading: column for table in tables(results) for column in table.columns}
+
+
+def _joints(results: Results) -> Iterator[Column]:
+    """Displacement of guides; angle of the second link of a pin against its first."""
+    for name, joint in results.mechanism.joints.items():
+        if not joint.coordinate:
+            continue
+        pin = joint.coordinate == "turn"
+        motion = results.motion.joint(name)
+        kinds = ("displacement", "velocity", "acceleration")
+        if pin:
+            kinds = ("relative_angle", "relative_velocity", "relative_acceleration")
+        rows = (motion.displacement, motion.velocity, motion.acceleration)
+        for kind, unit, values in zip(kinds, UNITS["rad" if pin else "m"], rows, strict=True):
+            yield Column(name, kind, unit, values)
+
+
+def _loads(results: Results) -> Iterator[Column]:
+    if results.forces is None:
+        return
+    for name in results.mechanism.loads:
+        load = results.forces.load(name)
+        yield from _vector(name, "force", "N", load.force)
+        yield Column(name, "moment", "N·m", load.moment)
+        yield from _vector(name, "place", "m", load.place, size=False)
+
+
+def _vector(owner: str, kind: str, unit: str, values: Floats, *, size: bool = True) -> Iterator[Column]:
+    before = f"{kind}." if kind else ""
+    yield Column(owner, f"{before}x", unit, values[:, 0])
+    yield Column(owner, f"{before}y", unit, values[:, 1])
+    if size:
+        yield Column(owner, f"{before}magnitude", unit, np.hypot(values[:, 0], values[:, 1]))

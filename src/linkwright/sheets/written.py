@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.exporters.dxf.entities import add, content_of, new_document
+from linkwright.exporters.dxf import add, content_of, new_document
 from linkwright.pictures.picture import Circle, Item, Line, Text
 from linkwright.pictures.svg import FAMILY_LIST, element, number
 from linkwright.sheets.paper import Paper

@@ -3,7 +3,7 @@
 import pytest
 from tests.every import every
 
-from linkwright.exporters.dxf.sheet import LAYERS
+from linkwright.exporters.dxf import LAYERS
 
 
 def luminance(colour: tuple[int, int, int]) -> float:

@@ -2,7 +2,7 @@
 
 import re
 
-from linkwright.exporters.modelica.laws import Names, quoted
+from linkwright.exporters.modelica_equations import Names, quoted
 
 
 def test_names_are_distinct_identifiers() -> None:

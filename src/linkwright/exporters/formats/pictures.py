@@ -6,8 +6,15 @@ from collections.abc import Sequence
 
 from linkwright.core.table import Tabular
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.exporters.dxf.entities import content_of, new_document
-from linkwright.exporters.dxf.sheet import LAYERS, Sheet, check_unit, decimals_for, set_dimension_style
+from linkwright.exporters.dxf import (
+    LAYERS,
+    Sheet,
+    check_unit,
+    content_of,
+    decimals_for,
+    new_document,
+    set_dimension_style,
+)
 from linkwright.exporters.export import FORMATS, Format
 from linkwright.exporters.results import Results
 from linkwright.files.document import Document

@@ -16,8 +16,7 @@ from linkwright.designs.ranges import dimension_of
 from linkwright.errors import RequestError
 from linkwright.exporters.charts import Charts, Place, write_charts
 from linkwright.exporters.export import FORMATS, Format, package
-from linkwright.exporters.results import Results
-from linkwright.exporters.tables import QUANTITIES, Subject, tables
+from linkwright.exporters.results import QUANTITIES, Results, Subject, tables
 from linkwright.units import NONE, si_symbol
 from linkwright.words import Message, _, pgettext
 from linkwright.words.characters import printable

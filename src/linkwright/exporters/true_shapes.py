@@ -10,7 +10,7 @@ import numpy as np
 from linkwright.cams.result import CamDesign
 from linkwright.core.arguments import PROFILE_POINTS
 from linkwright.errors import RequestError
-from linkwright.exporters.dxf.entities import add, content_of, new_document
+from linkwright.exporters.dxf import add, content_of, new_document
 from linkwright.filesystem import atomic_write, refuse_target
 from linkwright.gears.pair import GearPair
 from linkwright.gears.rack import Rack

@@ -1,4 +1,4 @@
-"""Links as bodies of a MuJoCo model, nested in the chains of the Assur groups, what closes the loops; its numbers."""
+"""MuJoCo models: links as bodies in the chains of the Assur groups, what closes the loops, servos, a key frame."""
 
 from __future__ import annotations
 
@@ -10,23 +10,65 @@ from dataclasses import dataclass
 import numpy as np
 
 from linkwright.elements.topology import Connection, TreeJoint
-from linkwright.exporters.results import Results
+from linkwright.exporters.export import FORMATS, Format
+from linkwright.exporters.results import Results, seconds
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import placements
 from linkwright.mechanism.link import Link
 from linkwright.words.characters import printable
 
+#: Time steps in one cycle.
+STEPS_PER_CYCLE = 20_000
+
+
+def mjcf_content(results: Results, *, timestep: float | None = None) -> bytes:
+    """Bodies hang in the chains of the Assur groups; the cut pins are ``connect`` constraints between sites.
+
+    Every joint's coordinate is Linkwright's: angle of the second link against the first, or displacement of the
+    block. Key frame ``start`` holds coordinates, rates and controls of the first position that was reached; from
+    there a driver of constant speed runs by itself, other laws lie in ``numeric`` elements (NAME.time,
+    NAME.position, NAME.rate). ``timestep`` in s; default a 20 000th of the cycle. Loops are as stiff as the time
+    step allows (``solref`` 2 time steps). Loads of the model are not part of the file, gravity is.
+    """
+    index = results.first_ok()
+    step = timestep if timestep is not None else seconds(results.motion) / STEPS_PER_CYCLE
+    root = ET.Element("mujoco", model=results.mechanism.name)
+    ET.SubElement(root, "compiler", angle="radian", autolimits="true")
+    option = {
+        "timestep": f"{step:.17g}",
+        "integrator": "implicitfast",
+        "solver": "Newton",
+        "iterations": "200",
+        "tolerance": "1e-14",
+        "gravity": numbers((*results.mechanism.gravity, 0.0)),
+    }
+    ET.SubElement(ET.SubElement(root, "option", option), "flag", contact="disable")
+    stiff = ET.SubElement(root, "default")
+    ET.SubElement(stiff, "equality", solref=numbers((2 * step, 1.0)), solimp="0.9999 0.9999 0.001 0.5 2")
+    ET.SubElement(stiff, "geom", contype="0", conaffinity="0", mass="0", rgba="0.3 0.45 0.6 1")
+    bodies = Bodies(results, index, reflected_inertia(results))
+    root.append(bodies.world())
+    equality = loops(results, bodies)
+    if len(equality):
+        root.append(equality)
+    sums = tendons(results, bodies)
+    if len(sums):
+        root.append(sums)
+    if results.mechanism.drivers:
+        root.append(actuators(results, bodies, step))
+        custom = laws(results)
+        if len(custom):
+            root.append(custom)
+    root.append(key(results, bodies, index))
+    return written(root)
+
+
+FORMATS.register("mjcf")(Format((".xml", ".mjcf"), mjcf_content))
+
 
 def numbers(values: Iterable[float]) -> str:
     """Numbers with all their digits, separated by spaces."""
     return " ".join(f"{float(value) + 0.0:.17g}" for value in values)
-
-
-def seconds(motion: Motion) -> float:
-    """Duration of the motion, s; 1 s where there is none."""
-    if motion.positions.period:
-        return float(motion.positions.period)
-    return float(np.ptp(motion.time)) or 1.0
 
 
 def written(root: ET.Element) -> bytes:
@@ -263,3 +305,73 @@ def tendons(results: Results, bodies: Bodies) -> ET.Element:
                 if factor:
                     ET.SubElement(tendon, "joint", joint=name, coef=numbers([factor]))
     return found
+
+
+#: Natural frequency of the position servo times the time step.
+SERVO = 0.2
+SAMPLES = 241
+
+
+def reflected_inertia(results: Results) -> dict[str, float]:
+    """Inertia (kg·m² or kg) of all links as each driver feels it, largest over the motion: Σ(m v² + I ω²)/q̇²."""
+    motion, mechanism = results.motion, results.mechanism
+    twice_energy = np.zeros(motion.steps)
+    for name, link in mechanism.links.items():
+        moving = motion.link(name)
+        speed = (moving.centre.velocity**2).sum(axis=1)
+        twice_energy += link.mass * speed + link.inertia * moving.angular_velocity**2
+    most = float(np.nanmax(twice_energy, initial=0.0))
+    found = {}
+    for name, (_, rate, _) in motion.positions.coordinates.items():
+        fastest = float(np.max(np.abs(rate), initial=0.0))
+        found[name] = most / fastest**2 if most > 0 and fastest > 0 else 1.0
+    return found
+
+
+def actuators(results: Results, bodies: Bodies, step: float) -> ET.Element:
+    """Two servos a driver, on position and on rate; with constant speed the position is the rate's integral."""
+    found = ET.Element("actuator")
+    for name, driver in results.mechanism.drivers.items():
+        inertia = HEAVY * bodies.reflected[name]
+        stiffness = inertia * (SERVO / step) ** 2
+        gains = {"gainprm": numbers([stiffness]), "biastype": "affine", "biasprm": numbers([0.0, -stiffness, 0.0])}
+        if driver.law.constant_speed is not None:
+            gains["dyntype"] = "integrator"
+        ET.SubElement(found, "general", {"name": name, "joint": bodies.joint_of[name], **gains})
+        damping = numbers([2 * inertia * SERVO / step])
+        ET.SubElement(found, "velocity", name=f"{name}.rate", joint=bodies.joint_of[name], kv=damping)
+    return found
+
+
+def laws(results: Results) -> ET.Element:
+    """Samples of the laws that are not a constant speed."""
+    custom = ET.Element("custom")
+    time = np.linspace(float(results.motion.time.min()), float(results.motion.time.max()), SAMPLES)
+    for name, driver in results.mechanism.drivers.items():
+        if driver.law.constant_speed is None:
+            position, rate, _ = driver.law.coordinate(time)
+            for kind, values in (("time", time), ("position", position), ("rate", rate)):
+                ET.SubElement(custom, "numeric", name=f"{name}.{kind}", data=numbers(values))
+    return custom
+
+
+def key(results: Results, bodies: Bodies, index: int) -> ET.Element:
+    """The key frame ``start``: coordinates, rates, states of integrators and controls."""
+    coordinates = results.motion.positions.coordinates
+    states, controls = [], []
+    for name, driver in results.mechanism.drivers.items():
+        position, rate, _ = (values[index] for values in coordinates[name])
+        steady = driver.law.constant_speed is not None
+        states += [position] if steady else []
+        controls += [rate if steady else position, rate]
+    frame = ET.Element("keyframe")
+    attributes = {
+        "name": "start",
+        "time": numbers([results.motion.time[index]]),
+        "qpos": numbers(each.value for each in bodies.coordinates),
+        "qvel": numbers(each.rate for each in bodies.coordinates),
+    }
+    signals = {"act": states, "ctrl": controls}
+    attributes |= {name: numbers(values) for name, values in signals.items() if values}
+    ET.SubElement(frame, "key", attributes)
+    return frame

@@ -1,4 +1,4 @@
-"""The same motion as differential equations: constraints between velocities, pulled back to those between places.
+"""Modelica models without libraries: as conditions of the joints, or as differential equations.
 
 Every joint's condition g(q) = 0 enters as ġ = -g/T: linear in the velocities, so that a tool integrates from the
 starting position and cannot change to another way of putting the mechanism together.
@@ -6,11 +6,64 @@ starting position and cannot change to another way of putting the mechanism toge
 
 from __future__ import annotations
 
-from linkwright.exporters.modelica.equations import Equations, Text
-from linkwright.exporters.modelica.laws import law_text, number, quoted
-from linkwright.exporters.results import Results
+from linkwright.errors import RequestError
+from linkwright.exporters.export import FORMATS, Format
+from linkwright.exporters.modelica_equations import Equations, Text, identifier, indented, law_text, number, quoted
+from linkwright.exporters.results import Results, seconds
 from linkwright.joints.base import Joint
 from linkwright.joints.lower_pair import RigidJoint, SlidingJoint
+from linkwright.words import _
+
+INTERVALS = 360
+FORMS = ("positions", "rates")
+#: Relaxation times in a cycle, for equations of rates.
+RELAXATIONS = 60
+
+
+def modelica_content(
+    results: Results, *, name: str | None = None, form: str = "rates", accelerations: bool = True
+) -> bytes:
+    """A model without libraries: unknowns are the place and angle of every link, of pins and points.
+
+    Each pin says that its links meet there, each guide that its block lies on its line; drivers are laws of time, so
+    that as many equations as unknowns are left and the motion follows. Starting values are those of the first
+    position that was reached: they choose the way the mechanism is put together. Dimensions are parameters.
+    Masses and loads are not part of the model.
+
+    ``form="rates"``: the joints' conditions between velocities, places and angles integrated from the start.
+    ``form="positions"``: the conditions themselves, to be solved at every time; more exact, with ``accelerations``
+    of links and blocks, but a tool may change to another way of putting the mechanism together. ``name``: of the
+    model (default: Linkwright_ and the mechanism's name).
+    """
+    motion, mechanism = results.motion, results.mechanism
+    index = results.first_ok()
+    if form not in FORMS:
+        raise RequestError(
+            _('the equations are of "positions" or of "rates", not of "{form}"', code="export.bad_form", form=form)
+        )
+    if form == "rates":
+        text = Rates(results, index, seconds(motion) / RELAXATIONS).write()
+    else:
+        text = Equations(results, index, accelerations=accelerations).write()
+    title = name or f"Linkwright_{identifier(mechanism.name)}"
+    begin = float(motion.time[index])
+    end, step = begin + seconds(motion), seconds(motion) / INTERVALS
+    experiment = f"StartTime={number(begin)}, StopTime={number(end)}, Interval={number(step)}, Tolerance=1e-9"
+    lines = [
+        f"model {title} {quoted(mechanism.name)}",
+        *indented(text.parameters),
+        *indented(text.unknowns),
+        "equation",
+        *indented(text.equations),
+        f"  annotation(experiment({experiment}));",
+        f"end {title};",
+        "",
+    ]
+    return "\n".join(lines).encode()
+
+
+FORMATS.register("modelica")(Format((".mo",), modelica_content))
+
 
 Pair = tuple[str, str]
 
