@@ -28,10 +28,8 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import placements
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.page.contacts import RackWay, Wheels, contact_shape
-from linkwright.page.dimensions import dimensions, drawn
-from linkwright.page.glyphs import glyphs, undrawn
-from linkwright.page.positions import packed, positions
+from linkwright.page.glyphs import RackWay, Wheels, contact_shape, glyphs, undrawn
+from linkwright.page.inputs import dimensions, drawn, packed, positions
 from linkwright.page.programs import SIZES, PagePrograms
 from linkwright.page.quantities import numbers, point_keys, signals, usual_curves
 from linkwright.page.texts import TEXTS

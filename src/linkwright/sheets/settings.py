@@ -20,8 +20,7 @@ from linkwright.parts.base import Problem
 from linkwright.registry import Registry
 from linkwright.reports.settings import worked_place
 from linkwright.sheets.panel import Panel
-from linkwright.sheets.paper import Paper, Standard
-from linkwright.sheets.title_block import Fields
+from linkwright.sheets.paper import Fields, Paper, Standard
 from linkwright.words import Message, Translate, _
 
 

@@ -18,9 +18,19 @@ from linkwright.pictures.picture import CAPTION, MIN_TEXT, TEXT, Box, Picture, T
 from linkwright.registry import listed
 from linkwright.sheets.layout import GAP, Room, laid_out
 from linkwright.sheets.panel import Block, Panel, block_of
-from linkwright.sheets.paper import BAR, BAR_HEIGHT, SIZES, Paper, control_bar, frame
+from linkwright.sheets.paper import (
+    BAR,
+    BAR_HEIGHT,
+    SIZES,
+    Paper,
+    TitleBlock,
+    control_bar,
+    frame,
+    gb_block,
+    iso_block,
+    school_block,
+)
 from linkwright.sheets.settings import SHEETS, Content, Placed, Settings, Subject, settings
-from linkwright.sheets.title_block import TitleBlock, gb_block, iso_block, school_block
 from linkwright.sheets.written import svg
 from linkwright.words import _
 from linkwright.words.sentence import in_language

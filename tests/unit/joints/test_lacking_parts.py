@@ -11,7 +11,7 @@ from tests.refusals import refused
 
 from linkwright.joints.base import Joint, LackingError
 from linkwright.mechanism.wheels_and_cams import disc_radii, wheel_sizes
-from linkwright.page.contacts import contact_shape
+from linkwright.page.glyphs import contact_shape
 from linkwright.plotting.drawing.joint_marks import marks as marks_of
 from linkwright.worked_solutions.higher_pairs import contact_of
 from linkwright.worked_solutions.wheels import own_form

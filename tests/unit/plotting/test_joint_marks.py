@@ -12,7 +12,7 @@ from tests.contract.joints_of_every_kind import MODEL, WRITTEN
 from tests.every import every
 
 import linkwright as lw
-from linkwright.page.contacts import Amount, contact_shape
+from linkwright.page.glyphs import Amount, contact_shape
 from linkwright.plotting.drawing.joint_marks import marks as marks_of
 
 WHEELS = """

@@ -1,1 +1,1 @@
-"""The kinds of sheets, one module each: what panels a machine or a calculation offers."""
+"""The kinds of sheets: what panels a machine or a calculation offers."""

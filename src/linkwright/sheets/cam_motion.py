@@ -13,8 +13,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.quantity import significant
 from linkwright.laws.program import TURN
 from linkwright.pictures.picture import MIN_TEXT, TEXT, Picture, Runs, as_runs, indexed, joined, runs_width
-from linkwright.sheets.cams.division import Phase, divided, phases
-from linkwright.sheets.cams.marks import graphical
+from linkwright.sheets.cam_division import Phase, divided, graphical, phases
 from linkwright.sheets.panel import Drawn, Panel, preferred
 from linkwright.words import Translate, _
 
