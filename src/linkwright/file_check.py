@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from linkwright.applied_loads.base import Load
     from linkwright.applied_loads.phases import Phase
-    from linkwright.elements.topology import Group
+    from linkwright.elements import Group
     from linkwright.kinematics.motion import Motion
     from linkwright.mechanism.mechanism import Mechanism
     from linkwright.topology.analysis import Structure

@@ -10,7 +10,7 @@ from linkwright.analysis.analysis import Analysis
 from linkwright.analysis.base import METRICS, Better, Metric, MetricValue, Number, Remark
 from linkwright.core.quantity import shown
 from linkwright.cycle.summaries import Summary
-from linkwright.elements.topology import Group
+from linkwright.elements import Group
 from linkwright.kinetostatics.closure import closable
 from linkwright.words import _
 

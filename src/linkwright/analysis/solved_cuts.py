@@ -13,11 +13,10 @@ from linkwright.applied_loads.base import Load
 from linkwright.applied_loads.over_cycle import switch_times
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output, RelativeAngle
-from linkwright.events.course import Course
+from linkwright.events.course import Course, Stretches
 from linkwright.events.events import events
 from linkwright.events.limit_positions import NO_NUMBERS, ONE, bend_times, one_span
 from linkwright.events.solved_again import OfTimes
-from linkwright.events.stretches import Stretches
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.friction import FrictionTerm, joint_rate, moving_rate

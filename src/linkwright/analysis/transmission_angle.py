@@ -13,7 +13,7 @@ from linkwright.analysis.outputs import output_link
 from linkwright.core.outputs import Output
 from linkwright.core.quantity import shown
 from linkwright.cycle.summaries import STROKES, StrokeSummary, Summary
-from linkwright.elements.topology import Group
+from linkwright.elements import Group
 from linkwright.kinetostatics.closure import dyads
 from linkwright.words import _
 

@@ -21,8 +21,7 @@ from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.curves.curve import increasing
 from linkwright.curves.pieces import HIGH, LOW, Columns, Layout, Pieces, Wanted
 from linkwright.cycle.solved import PIECES
-from linkwright.events.course import Course
-from linkwright.events.stretches import Span, Stretches
+from linkwright.events.course import Course, Span, Stretches
 
 #: A piece next to a change point reaches this share of the cycle. Nearer to it than the first of its places no
 #: position is asked for: places are exact to the machine's digits over the distance, second derivatives to these over

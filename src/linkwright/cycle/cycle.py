@@ -18,9 +18,9 @@ from linkwright.core.outputs import Output, RelativeAngle
 from linkwright.cycle.loads import input_end
 from linkwright.cycle.machine import VALID, Machine, Swing
 from linkwright.cycle.summaries import OF_LIMITS, Asked, Signal, StrokeSummary, Summary
+from linkwright.events.course import Span, Stretches
 from linkwright.events.events import AT, Events, Limits, events
 from linkwright.events.formula import Formula
-from linkwright.events.stretches import Span, Stretches
 from linkwright.formula.trace import Scalar, absolute
 from linkwright.kinetostatics.friction import FrictionTerm
 from linkwright.kinetostatics.load_site import acts_name

@@ -20,9 +20,9 @@ from linkwright.applied_loads.phases import SwingPhase
 from linkwright.applied_loads.strokes import NEAR, TURN
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.cycle.machine import length_name, since_name
+from linkwright.events.course import Cuts, Span
 from linkwright.events.events import AT, Designs, Limits, at_times
 from linkwright.events.formula import Formula, Known
-from linkwright.events.stretches import Span
 from linkwright.kinetostatics.load_site import acts_name
 
 Columns = dict[str, Floats]
@@ -32,7 +32,7 @@ class Acting(ABC):
     """When one load acts; ``events``: where it begins and ends to; ``by_dimensions``: derivatives (designs,) by those
     that are its ends, gathered on the way back."""
 
-    events: list[Ends]
+    events: list[Cuts]
 
     def __init__(self, load: Load, span: Span) -> None:
         self.name, self.ramp, self.span = load.name, load.magnitude.size.ramp, span
@@ -134,7 +134,7 @@ class WithinInput(Acting):
     falls, else 0.
     """
 
-    def __init__(self, load: Load, span: Span, ends: tuple[Floats, Floats], heading: int, events: list[Ends]) -> None:
+    def __init__(self, load: Load, span: Span, ends: tuple[Floats, Floats], heading: int, events: list[Cuts]) -> None:
         super().__init__(load, span)
         self.start, last = ends
         gap, self._rotary = last - self.start, span.course.first.law.rotary
@@ -273,15 +273,7 @@ def part_of(phase: SwingPhase) -> tuple[tuple[float, float], tuple[float, float]
     return (first, 1.0 - last), (way, -back)
 
 
-class Ends(Protocol):
-    """Events at which strokes begin or end, (k,) by design and time."""
-
-    design: Indices
-    time: Floats
-    bar: Floats
-
-
-class Reversals(Ends, Protocol):
+class Reversals(Cuts, Protocol):
     """Such that go up or down."""
 
     rising: Flags
@@ -293,8 +285,8 @@ class Strokes:
     and time."""
 
     span: Span
-    start: Ends
-    finish: Ends
+    start: Cuts
+    finish: Cuts
     begin: Indices
     end: Indices
 
@@ -341,7 +333,7 @@ class Repeated:
     """Events of a cycle that comes again and again, as far as they lie in the course of a ``span``: (k,) by
     design."""
 
-    def __init__(self, events: Ends, period: Floats, span: Span) -> None:
+    def __init__(self, events: Cuts, period: Floats, span: Span) -> None:
         self.events = events
         lap, first = period[events.design], events.time
         begin, end = span.begin, span.begin + span.period[events.design]
@@ -361,7 +353,7 @@ class Repeated:
         np.add.at(self.events.bar, self._which, self.bar)
 
 
-def between(start: Ends, finish: Ends, span: Span) -> Strokes:
+def between(start: Cuts, finish: Cuts, span: Span) -> Strokes:
     """From every event of one family to the next one of another."""
     end, has = _next(start, finish, span)
     begin = np.flatnonzero(has)
@@ -377,7 +369,7 @@ def of_limits(events: Reversals, rising: tuple[bool, bool], span: Span) -> Strok
     return Strokes(span, events, events, begin, end[begin])
 
 
-def _next(start: Ends, finish: Ends, span: Span) -> tuple[Indices, Flags]:
+def _next(start: Cuts, finish: Cuts, span: Span) -> tuple[Indices, Flags]:
     """Of one family's events the following ones of another, of the same design and around cycles that close."""
     if not len(finish.time):
         return np.zeros(len(start.time), dtype=np.intp), np.zeros(len(start.time), dtype=np.bool_)

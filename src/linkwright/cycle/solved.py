@@ -28,9 +28,9 @@ from linkwright.cycle.loads import (
 )
 from linkwright.cycle.machine import NotTogether
 from linkwright.cycle.summaries import Summaries
+from linkwright.events.course import AtInput, Cuts, Stretches
 from linkwright.events.events import Events, Limits, events
 from linkwright.events.formula import ROW, Formula
-from linkwright.events.stretches import AtInput, Cuts, Stretches
 from linkwright.formula.trace import Scalar, Trace, sin
 from linkwright.kinetostatics.signals import MotionSignals
 

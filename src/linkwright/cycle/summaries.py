@@ -15,8 +15,8 @@ from linkwright.core.outputs import Output
 from linkwright.curves.pieces import LOW, Pieces, Wanted
 from linkwright.curves.polynomials import NODES, Peak, best_of, climbed, largest
 from linkwright.errors import RequestError
+from linkwright.events.course import Span
 from linkwright.events.events import Limits
-from linkwright.events.stretches import Span
 from linkwright.formula.reductions import Reduction
 from linkwright.kinetostatics.named_outputs import Quantity
 from linkwright.words import _

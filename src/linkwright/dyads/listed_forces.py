@@ -9,7 +9,7 @@ from linkwright.core.outputs import Output
 from linkwright.dyads.listed_numbers import call, number, pair, quoted, series
 from linkwright.dyads.plan import Guide, Step
 from linkwright.dyads.script import Script
-from linkwright.elements.topology import Connection
+from linkwright.elements import Connection
 from linkwright.kinetostatics.link_balance import applied_rows
 from linkwright.mechanism.link import centre
 from linkwright.words import _

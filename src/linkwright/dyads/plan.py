@@ -15,7 +15,7 @@ import numpy as np
 from linkwright.core.arrays import Indices
 from linkwright.dyads.motion import DyadMotion, prp, rpp, rpr, rrp, rrr
 from linkwright.dyads.values import Line, State
-from linkwright.elements.topology import Group, TreeJoint
+from linkwright.elements import Group, TreeJoint
 from linkwright.errors import LinkwrightError
 from linkwright.joints.lower_pair import SlidingJoint
 from linkwright.kinematics.groups import dyad_shape

@@ -19,8 +19,8 @@ import numpy as np
 from linkwright.core.arrays import Flags, Floats, Indices, begins
 from linkwright.curves.pieces import HIGH, LOW, Layout, Pieces, Wanted
 from linkwright.curves.polynomials import LOOKS, TO_LOOKS, product, turning_points
+from linkwright.events.course import Span, Stretches
 from linkwright.events.formula import Formula, Known, Pointwise
-from linkwright.events.stretches import Span, Stretches
 
 #: Pieces of a lap to begin with, and to what share of its size they meet a signal.
 PIECES, MET = 6, 1e-5

@@ -16,11 +16,10 @@ from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.outputs import Output, kind_of, row_name
 from linkwright.core.search import first_largest
 from linkwright.errors import RequestError
-from linkwright.events.course import Course
+from linkwright.events.course import Course, Span, Stretches
 from linkwright.events.events import events
 from linkwright.events.formula import ROW, Known
 from linkwright.events.solved_again import SolvedAgain, kink_rows, of_bounded_rate, of_kinks, of_rate, solved_at
-from linkwright.events.stretches import Span, Stretches
 from linkwright.formula.recently_made import Recent
 from linkwright.kinematics.between_positions import Between, Reach
 from linkwright.kinematics.motion import TURN, Motion

@@ -20,8 +20,7 @@ from linkwright.registry import Registry
 from linkwright.words import _
 
 if TYPE_CHECKING:
-    from linkwright.elements.model import Sizes
-    from linkwright.elements.topology import Group
+    from linkwright.elements import Group, Sizes
 
 
 @dataclass(frozen=True)

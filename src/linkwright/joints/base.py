@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import MISSING, dataclass, fields, replace
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol, Self
 
-from linkwright.elements.topology import Connection, PairType
+from linkwright.elements import Connection, PairType
 from linkwright.errors import LinkwrightError, Severity
 from linkwright.fields.base import Field, Schema
 from linkwright.formula.linear_algebra import Vec
@@ -23,8 +23,7 @@ from linkwright.words import Message, _, pgettext
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Flags, Floats
-    from linkwright.elements.model import Drawing, Model, ModelLink, Sizes
-    from linkwright.elements.topology import Group, TreeJoint
+    from linkwright.elements import Drawing, Group, Model, ModelLink, Sizes, TreeJoint
     from linkwright.fields.nodes import Mapping as MappingNode
     from linkwright.fields.nodes import Node
     from linkwright.fields.reading import Place as Where

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
-from linkwright.elements.model import Model, Sizes
+from linkwright.elements import Model, Sizes
 from linkwright.fields.base import Field, Quantity, Word
 from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Mask, Scalar, reciprocal, sqrt

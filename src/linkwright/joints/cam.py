@@ -10,7 +10,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.quantity import shown
-from linkwright.elements.model import Drawing, Model, Sizes
+from linkwright.elements import Drawing, Model, Sizes
 from linkwright.fields.base import Field, Quantity, Word
 from linkwright.fields.references import LinkName, PointName
 from linkwright.formula.linear_algebra import Vec
@@ -23,7 +23,7 @@ from linkwright.words import _, pgettext
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Flags, Floats
-    from linkwright.elements.topology import Connection, Group
+    from linkwright.elements import Connection, Group
     from linkwright.laws.program import MotionProgram
     from linkwright.laws.traced import LiftCurve
 

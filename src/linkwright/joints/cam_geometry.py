@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 from typing import Protocol
 
-from linkwright.elements.model import Guide, Model
+from linkwright.elements import Guide, Model
 
 
 class Follower(Protocol):

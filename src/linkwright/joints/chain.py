@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import pi
 from typing import ClassVar
 
-from linkwright.elements.model import Sizes
+from linkwright.elements import Sizes
 from linkwright.fields.base import Field, Quantity
 from linkwright.formula.trace import Scalar
 from linkwright.joints.base import JOINTS, Entry, Joint

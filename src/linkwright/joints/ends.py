@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from linkwright.elements.model import Sizes
+from linkwright.elements import Sizes
 from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Scalar, Value, angle
 from linkwright.joints.pose import Pose, State

@@ -8,7 +8,7 @@ from math import cos as cos_of
 from math import pi
 from typing import ClassVar
 
-from linkwright.elements.model import Model, Sizes
+from linkwright.elements import Model, Sizes
 from linkwright.fields.base import Field, Quantity
 from linkwright.formula.trace import Mask, Scalar, absolute, cos, maximum, reciprocal, select, sqrt, stop, tan
 from linkwright.joints.base import JOINTS, Entry, Joint, Size

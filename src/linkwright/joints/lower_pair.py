@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from linkwright.elements.model import Drawing, Model
+from linkwright.elements import Drawing, Model
 from linkwright.errors import LinkwrightError
 from linkwright.formula.trace import Scalar
 from linkwright.joints.base import Joint

@@ -19,8 +19,7 @@ from linkwright.words import _
 from linkwright.words.sentence import together
 
 if TYPE_CHECKING:
-    from linkwright.elements.model import Sizes
-    from linkwright.elements.topology import TreeJoint
+    from linkwright.elements import Sizes, TreeJoint
 
 
 @JOINTS.register("prismatic")

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from math import pi
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from linkwright.elements.model import Drawing, Guide, Model, Sizes
+from linkwright.elements import Drawing, Guide, Model, Sizes
 from linkwright.fields.base import Field, Quantity
 from linkwright.fields.references import Direction, LinkName, PointName
 from linkwright.formula.linear_algebra import Vec
@@ -20,7 +20,7 @@ from linkwright.joints.toothed import FITS, is_integer, length
 from linkwright.words import Message, _
 
 if TYPE_CHECKING:
-    from linkwright.elements.topology import Connection, Group
+    from linkwright.elements import Connection, Group
 
 
 @JOINTS.register("rack")

@@ -15,7 +15,7 @@ from linkwright.joints.lower_pair import TurningJoint
 from linkwright.words import _
 
 if TYPE_CHECKING:
-    from linkwright.elements.topology import TreeJoint
+    from linkwright.elements import TreeJoint
 
 FRICTION = Quantity("dimensionless", minimum=0, doc=_("coefficient of Coulomb friction (default 0)"))
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import dist
 from typing import Any, ClassVar
 
-from linkwright.elements.model import Model, Sizes
+from linkwright.elements import Model, Sizes
 from linkwright.fields.base import Field, Quantity, Word
 from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Mask, Scalar, absolute, reciprocal, sqrt

@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.quantity import shown
-from linkwright.elements.model import Drawing, Model, Sizes
+from linkwright.elements import Drawing, Model, Sizes
 from linkwright.fields.base import Field, Quantities, Quantity, pair_schema
 from linkwright.fields.references import LinkName, LinkNames
 from linkwright.formula.linear_algebra import Vec

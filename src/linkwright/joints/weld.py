@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from linkwright.elements.model import Sizes
+from linkwright.elements import Sizes
 from linkwright.fields.base import Field, Quantity, Text
 from linkwright.fields.references import LinkNames
 from linkwright.formula.linear_algebra import Vec
@@ -17,7 +17,7 @@ from linkwright.joints.lower_pair import RigidJoint
 from linkwright.words import _
 
 if TYPE_CHECKING:
-    from linkwright.elements.topology import TreeJoint
+    from linkwright.elements import TreeJoint
 
 
 @JOINTS.register("weld")

@@ -9,7 +9,7 @@ from functools import cached_property
 
 from linkwright.core.inputs import Input, mode_inputs, turned
 from linkwright.core.outputs import row_names
-from linkwright.elements.topology import Group
+from linkwright.elements import Group
 from linkwright.errors import LinkwrightError
 from linkwright.formula.program import Program
 from linkwright.formula.recently_made import Recent

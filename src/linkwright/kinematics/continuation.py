@@ -10,7 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
 from linkwright.core.inputs import Input, Kind
-from linkwright.elements.topology import Group, TreeJoint
+from linkwright.elements import Group, TreeJoint
 from linkwright.formula.differentiation import Slopes
 from linkwright.formula.program import Program
 from linkwright.formula.scalar_backend import ScalarProgram

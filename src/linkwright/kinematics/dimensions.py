@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from linkwright.core.inputs import Input, mode_inputs
 from linkwright.drivers.base import Driver
-from linkwright.elements.topology import TreeJoint
+from linkwright.elements import TreeJoint
 from linkwright.errors import LinkwrightError
 from linkwright.formula.differentiation import Symbols
 from linkwright.formula.late_import import numpy as np

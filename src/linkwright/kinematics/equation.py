@@ -18,8 +18,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 
-from linkwright.elements.model import Sizes
-from linkwright.elements.topology import Connection, TreeJoint
+from linkwright.elements import Connection, Sizes, TreeJoint
 from linkwright.formula.differentiation import slope
 from linkwright.formula.linear_algebra import ZERO, Vec
 from linkwright.formula.replay import Substitution

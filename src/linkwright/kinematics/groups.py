@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from linkwright.elements.topology import Connection, Group, TreeJoint
+from linkwright.elements import Connection, Group, TreeJoint
 from linkwright.formula.linear_algebra import Matrix, Vec, determinant, inverse, product
 from linkwright.formula.recently_made import Recent
 from linkwright.formula.trace import Mask, Scalar, cos, sin, stop

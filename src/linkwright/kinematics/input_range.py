@@ -15,7 +15,7 @@ from linkwright.core.inputs import mode_groups
 from linkwright.core.outputs import row_name
 from linkwright.core.quantity import shown
 from linkwright.core.search import edge
-from linkwright.elements.topology import Group
+from linkwright.elements import Group
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.branch import FLOOR, Branch
 from linkwright.kinematics.change_points import crossings, mark_singular, signs

@@ -26,7 +26,7 @@ import numpy as np
 from linkwright.core.arguments import require
 from linkwright.core.arrays import Complexes, Flags, Floats
 from linkwright.core.linear_sums import LinearSums
-from linkwright.elements.topology import Connection, TreeJoint
+from linkwright.elements import Connection, TreeJoint
 from linkwright.errors import LinkwrightError
 from linkwright.joints.base import Joint, LackingError
 from linkwright.joints.lower_pair import RigidJoint, SlidingJoint, TurningJoint

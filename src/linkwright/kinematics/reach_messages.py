@@ -21,7 +21,7 @@ from linkwright.units import number
 from linkwright.words import Message, _
 
 if TYPE_CHECKING:
-    from linkwright.elements.topology import Group
+    from linkwright.elements import Group
     from linkwright.kinematics.tracked_branch import Stop
 
 

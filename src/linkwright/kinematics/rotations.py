@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from linkwright.core.inputs import Input
 from linkwright.core.linear_sums import LinearSums
-from linkwright.elements.topology import Group, TreeJoint
+from linkwright.elements import Group, TreeJoint
 from linkwright.formula.trace import Scalar, angle, nearest_turn
 from linkwright.joints.base import LackingError
 from linkwright.joints.pose import Pose

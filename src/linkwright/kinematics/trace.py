@@ -9,7 +9,7 @@ from typing import Any
 
 from linkwright.core.inputs import Input
 from linkwright.core.outputs import KINDS, POINT, SLIDE, Output, row_name, row_names
-from linkwright.elements.topology import Group, TreeJoint
+from linkwright.elements import Group, TreeJoint
 from linkwright.formula.linear_algebra import ZERO, Vec, product
 from linkwright.formula.trace import Mask, Scalar, Trace, select
 from linkwright.joints.pose import FRAME_POSE, FRAME_STATE, Pose, State

@@ -16,7 +16,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.inputs import driven
-from linkwright.elements.topology import Group, TreeJoint
+from linkwright.elements import Group, TreeJoint
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
 from linkwright.formula.recently_made import Recent

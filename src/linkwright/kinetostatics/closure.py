@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from linkwright.elements.topology import Group, TreeJoint
+from linkwright.elements import Group, TreeJoint
 from linkwright.formula.linear_algebra import Vec, determinant
 from linkwright.formula.recently_made import Recent
 from linkwright.formula.trace import Scalar, absolute, angle, sqrt

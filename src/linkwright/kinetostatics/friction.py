@@ -19,7 +19,7 @@ import numpy as np
 from linkwright.applied_loads.site import Wrench
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import RelativeAngle, row_name
-from linkwright.elements.topology import Connection
+from linkwright.elements import Connection
 from linkwright.formula.differentiation import slope
 from linkwright.formula.linear_algebra import ZERO, Vec, product, solution
 from linkwright.formula.trace import Mask, Scalar, Value, absolute, maximum, select, sqrt, stop

@@ -12,7 +12,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.inputs import Input
 from linkwright.core.outputs import NAMED, Output
-from linkwright.elements.topology import Group
+from linkwright.elements import Group
 from linkwright.errors import RequestError
 from linkwright.formula.differentiation import Slopes
 from linkwright.formula.linear_algebra import Vec

@@ -14,7 +14,7 @@ from functools import cached_property, partial
 
 from linkwright.applied_loads.site import Wrench
 from linkwright.core.outputs import Output, row_name, row_names
-from linkwright.elements.topology import Connection, TreeJoint
+from linkwright.elements import Connection, TreeJoint
 from linkwright.formula.linear_algebra import ZERO, Vec, product, transposed
 from linkwright.formula.trace import Scalar, absolute
 from linkwright.joints.pose import Pose

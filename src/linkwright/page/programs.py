@@ -18,7 +18,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.inputs import mode_groups
 from linkwright.core.json_data import Plain
 from linkwright.core.outputs import SLIDE, Output, row_name, row_names
-from linkwright.elements.topology import Group
+from linkwright.elements import Group
 from linkwright.events.tracked_groups import TracedStep, chain_coordinates
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program

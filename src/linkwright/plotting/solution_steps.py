@@ -12,7 +12,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.drivers.base import LABELS
-from linkwright.elements.topology import Group
+from linkwright.elements import Group
 from linkwright.groups.base import DYADS
 from linkwright.joints.cam import CamJoint
 from linkwright.kinematics.groups import complete_form, dyad_shape, in_one_step

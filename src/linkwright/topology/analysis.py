@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from linkwright.core.table import Table, Tabular
-from linkwright.elements.topology import Connection, Group
+from linkwright.elements import Connection, Group
 from linkwright.errors import speaker
 from linkwright.joints.base import JOINTS, PAIRS
 from linkwright.topology.mobility import lower_pair_counts

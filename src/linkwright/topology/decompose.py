@@ -13,7 +13,7 @@ from heapq import heappop, heappush
 
 from linkwright.core.arguments import require
 from linkwright.drivers.base import Driver
-from linkwright.elements.topology import Connection, Group, TreeJoint
+from linkwright.elements import Connection, Group, TreeJoint
 from linkwright.joints.base import Joint
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.topology.analysis import Structure

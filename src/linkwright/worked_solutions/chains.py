@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
-from linkwright.elements.topology import Connection, Group, TreeJoint
+from linkwright.elements import Connection, Group, TreeJoint
 from linkwright.equations.terms import NOWHERE, TWO, ZERO, Pair, Term, cosine, number, sine, symbol
 from linkwright.worked_solutions.symbols import PointState, Slide, SymbolTable
 

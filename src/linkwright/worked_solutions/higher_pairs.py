@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from functools import singledispatch
 from math import asin, atan, pi
 
-from linkwright.elements.topology import Connection, Group, TreeJoint
+from linkwright.elements import Connection, Group, TreeJoint
 from linkwright.equations.steps import Step
 from linkwright.equations.terms import NOWHERE, ZERO, Pair, Term, number, symbol, total
 from linkwright.joints.base import Joint, LackingError

@@ -9,7 +9,7 @@ from functools import cached_property, singledispatch
 
 from linkwright.core.inputs import Input
 from linkwright.core.outputs import Output
-from linkwright.elements.topology import Group, TreeJoint
+from linkwright.elements import Group, TreeJoint
 from linkwright.equations.steps import Step
 from linkwright.equations.terms import (
     FOUR,

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from linkwright.core.outputs import Output
-from linkwright.elements.topology import Connection, Group, TreeJoint
+from linkwright.elements import Connection, Group, TreeJoint
 from linkwright.equations.steps import Step
 from linkwright.equations.terms import NOWHERE, TWO, ZERO, Pair, Term, number, symbol, total
 from linkwright.words import _

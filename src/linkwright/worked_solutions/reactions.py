@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
-from linkwright.elements.topology import Connection, Group, TreeJoint
+from linkwright.elements import Connection, Group, TreeJoint
 from linkwright.equations.steps import Step
 from linkwright.equations.terms import NOWHERE, ZERO, Pair, Term, direction, root, symbol, total
 from linkwright.kinematics.groups import in_one_step

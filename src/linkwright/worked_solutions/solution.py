@@ -8,7 +8,7 @@ import numpy as np
 
 from linkwright.core.arguments import integer, require
 from linkwright.core.outputs import Output
-from linkwright.elements.topology import Group
+from linkwright.elements import Group
 from linkwright.equations.reading import of_file, read_name
 from linkwright.equations.steps import Solution, Step, Written, page
 from linkwright.equations.terms import ZERO, ZERO_TOLERANCE, Term, symbol, total

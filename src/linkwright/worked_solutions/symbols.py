@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from linkwright.elements.topology import TreeJoint
+from linkwright.elements import TreeJoint
 from linkwright.equations.terms import NOWHERE, ONE, ZERO, Pair, Term, number, symbol
 from linkwright.joints.base import Joint
 from linkwright.kinematics.motion import Motion

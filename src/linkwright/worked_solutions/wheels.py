@@ -11,7 +11,7 @@ from typing import Protocol
 import numpy as np
 
 from linkwright.core.outputs import Output
-from linkwright.elements.topology import Connection, Group, TreeJoint
+from linkwright.elements import Connection, Group, TreeJoint
 from linkwright.equations.steps import Step
 from linkwright.equations.terms import TWO, ZERO, Pair, Term, cosine, number, sine, size, symbol, tangent, total
 from linkwright.joints.base import Joint

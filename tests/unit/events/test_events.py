@@ -8,11 +8,10 @@ import pytest
 import linkwright as lw
 from linkwright.curves.pieces import HIGH, LOW
 from linkwright.cycle.loads import between, of_limits
-from linkwright.events.course import Course
+from linkwright.events.course import Course, Span, Stretches
 from linkwright.events.events import Events, events
 from linkwright.events.formula import NODE, ROW, Formula, Known
 from linkwright.events.solved_again import OfTimes
-from linkwright.events.stretches import Span, Stretches
 from linkwright.formula.program import Program
 from linkwright.formula.trace import Scalar, Trace, cos, maximum, sin
 

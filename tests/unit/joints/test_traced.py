@@ -17,7 +17,7 @@ from tests.contract.joints_of_every_kind import KINDS, MODEL, WELDS
 from tests.unit.joints.plain_dimensions import Numbers
 
 import linkwright as lw
-from linkwright.elements.topology import TreeJoint
+from linkwright.elements import TreeJoint
 from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Trace
 from linkwright.joints.base import JOINTS

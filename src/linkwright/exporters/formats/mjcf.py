@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from linkwright.elements.topology import Connection, TreeJoint
+from linkwright.elements import Connection, TreeJoint
 from linkwright.exporters.export import FORMATS, Format
 from linkwright.exporters.results import Results, seconds
 from linkwright.kinematics.motion import Motion

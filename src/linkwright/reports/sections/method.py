@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import chain
 
-from linkwright.elements.topology import Group
+from linkwright.elements import Group
 from linkwright.equations.notation import (
     COMMA,
     EQUAL,

@@ -8,7 +8,7 @@ from inspect import getdoc
 
 from linkwright.analysis.base import METRICS
 from linkwright.core.table import Table
-from linkwright.elements.topology import Group
+from linkwright.elements import Group
 from linkwright.errors import LinkwrightError
 from linkwright.groups.base import DYADS
 from linkwright.reports.document import Block, Paragraph, Sources, literal, printed

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from linkwright.core.arrays import Floats
 from linkwright.core.table import Cell, Table
-from linkwright.elements.topology import Group
+from linkwright.elements import Group
 from linkwright.equations.reading import sides
 from linkwright.errors import LinkwrightError
 from linkwright.joints.base import JOINTS

@@ -1,13 +1,96 @@
-"""How links hang together, as plain data: connections, open chains and groups.
+"""What joints, drivers, loads and groups have in common: what they see of a model, and how its links hang together.
 
 A connection carries what is needed of its joint's kind, so that nobody who reads a group looks a kind up.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Set
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from linkwright.formula.differentiation import Symbols
+    from linkwright.formula.linear_algebra import Vec
+    from linkwright.formula.trace import Scalar, Trace
+
+
+class ModelLink(Protocol):
+    """A link with its points, m, in its own axes."""
+
+    @property
+    def points(self) -> Mapping[str, tuple[float, float]]: ...
+
+
+class ModelJoint(Protocol):
+    """A joint as an element sees it."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def coordinate(self) -> str: ...
+    @property
+    def joined(self) -> tuple[str, ...]: ...
+    @property
+    def ties(self) -> tuple[str, ...]: ...
+
+
+class Guide(ModelJoint, Protocol):
+    """A guide: a line of the link ``guide`` on which a point of the link ``block`` slides."""
+
+    @property
+    def guide(self) -> str: ...
+    @property
+    def through(self) -> str: ...
+    @property
+    def direction(self) -> float: ...
+    @property
+    def block(self) -> str: ...
+    @property
+    def at(self) -> str: ...
+    @property
+    def offset(self) -> float: ...
+    @property
+    def block_angle(self) -> float: ...
+    def slide_direction(self, dimensions: Sizes) -> Vec: ...
+
+
+class Model(Protocol):
+    """A machine as its elements see it."""
+
+    @property
+    def joints(self) -> Mapping[str, ModelJoint]: ...
+    @property
+    def guides(self) -> Mapping[str, Guide]: ...
+    def link(self, name: str) -> ModelLink: ...
+
+
+class Sizes(Protocol):
+    """The dimensions of a machine by their addresses (``crank.length``), traced or as numbers."""
+
+    @property
+    def mechanism(self) -> Model: ...
+    @property
+    def trace(self) -> Trace: ...
+    @property
+    def symbols(self) -> Symbols: ...
+    @property
+    def free(self) -> Set[str]: ...
+    def __call__(self, address: str) -> Scalar: ...
+    def link(self, name: str) -> ModelLink: ...
+    def unit(self, address: str) -> Vec: ...
+    def point(self, link: str, point: str) -> Vec: ...
+
+
+class Drawing(Protocol):
+    """An assembled drawing: directions of links, rad, with their turns, and places of points, m; None if unknown."""
+
+    @property
+    def mechanism(self) -> Model: ...
+    def __bool__(self) -> bool: ...
+    def angle(self, link: str) -> float | None: ...
+    def place(self, link: str, point: str) -> tuple[float, float] | None: ...
 
 
 @dataclass(frozen=True)
