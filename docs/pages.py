@@ -28,7 +28,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.fields.form import form
 from linkwright.validation.validate import validate
 from linkwright.words import Message
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 sys.path.insert(0, str(Path(__file__).parent))
 import codes as coded

@@ -58,10 +58,10 @@ from .exporters.sweep_parts import sweep_parts as sweep_parts
 from .file_check import check as check
 from .files.build import Model as Model
 from .files.model_file import gallery_names as gallery_names
+from .files.model_file import json_schema as json_schema
 from .files.model_file import load as load
 from .files.model_file import loads as loads
 from .files.model_file import read_document as read_document
-from .files.schema import json_schema as json_schema
 from .files.write import dump as dump
 from .gears.gear import Gear as Gear
 from .gears.pair import GearPair as GearPair

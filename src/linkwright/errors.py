@@ -9,7 +9,7 @@ from functools import partial
 from typing import Literal
 
 from linkwright.words import LANGUAGES, Message, Translate, _, say
-from linkwright.words.sentence import code_of, in_language, values_of
+from linkwright.words.message import code_of, in_language, values_of
 
 Severity = Literal["error", "warning", "note"]
 

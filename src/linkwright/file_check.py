@@ -19,7 +19,7 @@ from linkwright.files.read_model import HEADER, TASK_KEYS
 from linkwright.files.reader import Reader
 from linkwright.files.source import read_source
 from linkwright.words import _
-from linkwright.words.sentence import code_of
+from linkwright.words.message import code_of
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from linkwright.errors import RequestError
 from linkwright.words import Message, _
-from linkwright.words.sentence import reason_of
+from linkwright.words.message import reason_of
 
 #: Permissions of new files, before the user's mask.
 _USUAL, _PRIVATE = 0o666, 0o600

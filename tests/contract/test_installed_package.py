@@ -35,7 +35,7 @@ PROGRAM = r'''
 import sys, numpy as np, linkwright as lw
 from linkwright.cli import main
 from linkwright.files.write import dump
-from linkwright.files.schema import json_schema
+from linkwright.files.model_file import json_schema
 MODEL = """
 format: 1
 name: slotted lever

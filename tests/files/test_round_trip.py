@@ -15,8 +15,7 @@ from tests.unit.files.reading import found_in
 from linkwright.errors import LinkwrightError, ModelError, RequestError
 from linkwright.file_check import check
 from linkwright.files.build import Model
-from linkwright.files.model_file import load, loads, read_document
-from linkwright.files.schema import json_schema
+from linkwright.files.model_file import json_schema, load, loads, read_document
 from linkwright.files.source import gallery_names
 from linkwright.files.write import dump
 

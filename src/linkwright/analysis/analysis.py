@@ -11,10 +11,9 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 
 from linkwright.analysis.outputs import mechanism_outputs
-from linkwright.analysis.solved_again import Resolver, in_enough_positions
-from linkwright.analysis.solved_cuts import SolvedCuts
+from linkwright.analysis.reachable_intervals import Signal, Ways
+from linkwright.analysis.solved_again import Resolver, SolvedCuts, in_enough_positions
 from linkwright.analysis.solved_summaries import Reversals, SolvedSummary, of_positions
-from linkwright.analysis.ways import Signal, Ways
 from linkwright.applied_loads.signals import Limit
 from linkwright.applied_loads.strokes import outermost
 from linkwright.core.arrays import Floats

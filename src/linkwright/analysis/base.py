@@ -21,7 +21,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import Registry
 from linkwright.units import si_unit
 from linkwright.words import Message, _
-from linkwright.words.sentence import in_language, in_words
+from linkwright.words.message import in_language, in_words
 
 Better = Literal["higher", "lower"]
 #: Heads of what :meth:`MetricValue.cells` gives, and of remarks.

@@ -10,8 +10,7 @@ import numpy as np
 
 from linkwright.analysis.analysis import Analysis
 from linkwright.analysis.base import Number
-from linkwright.analysis.by_name import metric_named, needs_forces, number_named
-from linkwright.analysis.of_output import Asked
+from linkwright.analysis.by_name import Asked, metric_named, needs_forces, number_named
 from linkwright.analysis.true_speed import EFFORT, INERTIA, TrueSpeedSummary
 from linkwright.core.arguments import STEPS
 from linkwright.core.arrays import Flags, Floats

@@ -1,4 +1,4 @@
-"""Range of the input in which the mechanism can be assembled, and its dead points."""
+"""Range of the input in which the mechanism can be assembled, its dead points; stroke of a block, swing of a link."""
 
 from __future__ import annotations
 
@@ -11,8 +11,9 @@ import numpy as np
 from linkwright.analysis.analysis import Analysis
 from linkwright.analysis.base import METRICS, Metric, MetricValue, Number, Remark
 from linkwright.analysis.limit_positions import outermost_limits
-from linkwright.analysis.outputs import output_link
+from linkwright.analysis.outputs import output_link, turns_fully
 from linkwright.analysis.transmission_angle import smallest
+from linkwright.core.outputs import Output
 from linkwright.core.quantity import shown
 from linkwright.core.search import zeros
 from linkwright.cycle.summaries import Summary
@@ -167,3 +168,49 @@ def _distinct(places: Iterable[tuple[float, str]]) -> Iterator[tuple[float, str]
         if place - before > 1e-6:
             yield place, subject
         before = place
+
+
+@METRICS.register("stroke")
+class Stroke(Metric):
+    """Travel of every block on the frame between its outermost positions, m."""
+
+    label = _("stroke")
+    meaning = _("Travel of a block between its outermost positions.")
+
+    rank = 1
+    dimension = "length"
+    source = "IFToMM terminology: travel between limit positions"
+    kind = "displacement"
+
+    def suits(self, analysis: Analysis) -> bool:
+        return super().suits(analysis) and bool(self._swinging(analysis))
+
+    def numbers(self, analysis: Analysis) -> Iterator[Number]:
+        for output in self._swinging(analysis):
+            yield Number(str(output), (Summary(output.name, "range"),))
+
+    def values(self, analysis: Analysis) -> Iterator[MetricValue]:
+        """Those of a machine that reaches several stretches are of each of them."""
+        stretches = analysis.resolver.stretches if analysis.partial else ()
+        if len(stretches) < 2 or analysis.ways is None:
+            yield from super().values(analysis)
+            return
+        for output in self._swinging(analysis):
+            for (way, exact), stretch in zip(analysis.ranges(output), stretches, strict=True):
+                remarks = (between(*reached_inputs(analysis, *stretch), analysis.input_dimension),)
+                yield self.value(analysis, str(output), way, exact=exact, remarks=remarks)
+
+    def _swinging(self, analysis: Analysis) -> list[Output]:
+        motion = analysis.motion
+        return [o for o in analysis.outputs if o.kind == self.kind and motion.ok.any() and not turns_fully(motion, o)]
+
+
+@METRICS.register("swing_angle")
+class SwingAngle(Stroke):
+    """Angle between the outermost positions of every link that swings about the frame, rad."""
+
+    label = _("swing angle")
+    meaning = _("Angle of a link between its outermost positions.")
+
+    dimension = "angle"
+    kind = "angle"

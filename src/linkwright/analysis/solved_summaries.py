@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from linkwright.analysis.ways import SIDE, Signal, SignalsOnWays, Ways
+from linkwright.analysis.reachable_intervals import SIDE, Signal, SignalsOnWays, Ways
 from linkwright.applied_loads.signals import Limit
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.outputs import Output

@@ -12,8 +12,8 @@ from linkwright.analysis.analysis import Analysis
 from linkwright.analysis.base import METRICS, Better, Metric, MetricValue, Remark
 from linkwright.analysis.outputs import output_link
 from linkwright.analysis.range_of_motion import turns
+from linkwright.analysis.reachable_intervals import SolvedCurves, Ways
 from linkwright.analysis.swept_hull import Curves, SweptHull
-from linkwright.analysis.ways import SolvedCurves, Ways
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.outputs import row_names
 from linkwright.core.plane import area, convex_hull

@@ -12,7 +12,7 @@ from linkwright.core.table import Amount, Cell, Table, Tabular, dataframe
 from linkwright.errors import RequestError
 from linkwright.registry import offered
 from linkwright.words import _
-from linkwright.words.sentence import in_language, in_words, together
+from linkwright.words.message import in_language, in_words, together
 
 if TYPE_CHECKING:
     import pandas

@@ -44,7 +44,7 @@ from linkwright.fields.references import (
 from linkwright.joints.base import JointName
 from linkwright.registry import Registry
 from linkwright.words import _
-from linkwright.words.sentence import together
+from linkwright.words.message import together
 from linkwright.words.synonyms import meaning
 
 if TYPE_CHECKING:

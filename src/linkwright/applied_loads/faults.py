@@ -15,7 +15,7 @@ from linkwright.errors import QuantityError
 from linkwright.formula.late_import import numpy as np
 from linkwright.units import LARGEST
 from linkwright.words import Message, _, pgettext
-from linkwright.words.sentence import together
+from linkwright.words.message import together
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Flags, Floats

@@ -9,13 +9,13 @@ import numpy as np
 
 from linkwright.cams.result import LABELS, CamDesign
 from linkwright.core.quantity import number, shown
-from linkwright.core.rows import Block, Row
 from linkwright.core.search import first_largest
+from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.laws.program import MotionProgram
 from linkwright.laws.smoothest import FoundProgram
 from linkwright.words import Message, Translate, _, language_of
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 #: Places that a remark lists at most.
 MANY = 12

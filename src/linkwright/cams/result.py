@@ -17,8 +17,8 @@ from linkwright.core.arguments import PROFILE_POINTS
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import attached
 from linkwright.core.quantity import number
-from linkwright.core.rows import Block
 from linkwright.core.search import ends, first_largest
+from linkwright.core.table import Block
 from linkwright.curves.curve import Curve, Extreme
 from linkwright.equations.steps import Step
 from linkwright.errors import RequestError

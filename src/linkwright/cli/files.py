@@ -91,7 +91,7 @@ def present(found: Tabular, options: Options, session: Session, *written: object
 
 def write_table(name: str, columns: dict[str, Any], data: Any, *, force: bool) -> None:
     """Writes columns as CSV or data as JSON, as the file's ending says."""
-    from linkwright.core.json_data import json_text
+    from linkwright.core.data import json_text
     from linkwright.core.table import csv_text
 
     path = Path(name)

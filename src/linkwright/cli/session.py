@@ -17,7 +17,7 @@ from linkwright.cli.errors import OutputError
 from linkwright.errors import Finding
 from linkwright.words import Translate, _
 from linkwright.words.characters import terminal_text
-from linkwright.words.sentence import in_language, reason_of
+from linkwright.words.message import in_language, reason_of
 
 if TYPE_CHECKING:
     from linkwright.core.table import Table, Tabular
@@ -58,7 +58,7 @@ class Session:
 
     def show_data(self, value: object) -> None:
         """Prints plain data and arrays as JSON."""
-        from linkwright.core.json_data import json_text
+        from linkwright.core.data import json_text
 
         self.show_as_is(json_text(value))
 

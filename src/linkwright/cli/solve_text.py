@@ -21,7 +21,7 @@ from linkwright.topology import Structure
 from linkwright.topology.analysis import turned_against
 from linkwright.words import Translate, _, language_of, pgettext
 from linkwright.words.characters import GAP, cells, padded
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 if TYPE_CHECKING:
     from linkwright.worked_solutions.solution import Worked

@@ -18,7 +18,7 @@ from linkwright.course.mistakes import MISTAKES
 from linkwright.course.variants import FORMAT, close
 from linkwright.errors import LinkwrightError, RequestError, speaker
 from linkwright.words import _
-from linkwright.words.sentence import reason_of
+from linkwright.words.message import reason_of
 
 #: Letters of an answer that a sentence repeats.
 SHOWN = 60

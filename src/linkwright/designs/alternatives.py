@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from linkwright.analysis import Analysis
-from linkwright.analysis.of_output import Asked, pivot
+from linkwright.analysis.by_name import Asked, pivot
 from linkwright.analysis.outputs import mechanism_outputs
 from linkwright.core.arguments import require
 from linkwright.core.arrays import Floats

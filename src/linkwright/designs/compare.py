@@ -15,8 +15,8 @@ from linkwright.analysis.by_name import ask
 from linkwright.core.arguments import STEPS, real, require
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import PlotMixin, attached
+from linkwright.core.data import Frozen
 from linkwright.core.progress import current_progress
-from linkwright.core.read_only import Frozen
 from linkwright.core.table import Table, Tabular, unused
 from linkwright.designs.alternatives import Alternative, alternatives
 from linkwright.designs.criteria import USUAL, Criterion, criteria

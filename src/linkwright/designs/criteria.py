@@ -7,15 +7,14 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from linkwright.analysis import METRICS, Metric, MetricValue
-from linkwright.analysis.by_name import is_summary, measured, metric_named, metric_of, wanted
+from linkwright.analysis.by_name import OWN, is_summary, measured, metric_named, metric_of, wanted
 from linkwright.analysis.flywheel import SIZED
-from linkwright.analysis.of_output import OWN
 from linkwright.core.arguments import one_or_more
 from linkwright.designs.alternatives import Alternative
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.registry import offered
 from linkwright.words import _
-from linkwright.words.sentence import in_words
+from linkwright.words.message import in_words
 
 #: Names of the numbers that only comparisons have.
 LABELS = {

@@ -10,12 +10,10 @@ from typing import Any
 import numpy as np
 
 from linkwright.analysis import Analysis
-from linkwright.analysis.by_name import ask, measured, needs_forces
+from linkwright.analysis.by_name import Asked, ask, measured, needs_forces
 from linkwright.analysis.evaluate import unloaded
-from linkwright.analysis.hulls_of_designs import hulls_of_designs, swept
+from linkwright.analysis.extents_of_designs import hulls_of_designs, ranged, ranges_of_designs, swept
 from linkwright.analysis.of_designs import MetricsOfDesigns, numbers_of_designs
-from linkwright.analysis.of_output import Asked
-from linkwright.analysis.ranges_of_designs import ranged, ranges_of_designs
 from linkwright.applied_loads.strokes import TURN
 from linkwright.core.arguments import STEPS
 from linkwright.core.arrays import Flags, Floats, Indices

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.analysis.by_name import is_metric
-from linkwright.analysis.hulls_of_designs import swept
+from linkwright.analysis.extents_of_designs import swept
 from linkwright.analysis.of_designs import MetricsOfDesigns, NumbersOfDesigns, numbers_of_designs, refuse_obstacles
 from linkwright.core.arguments import STEPS, one_of, require
 from linkwright.core.arrays import Floats

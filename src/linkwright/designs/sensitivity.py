@@ -12,7 +12,7 @@ from linkwright.analysis.by_name import NO_OUTPUTS, wanted
 from linkwright.core.arguments import STEPS, one_of, one_or_more, require
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import PlotMixin
-from linkwright.core.read_only import Frozen, locked
+from linkwright.core.data import Frozen, locked
 from linkwright.core.table import Amount, Cell, Table, Tabular, unused
 from linkwright.cycle.summaries import Summary
 from linkwright.designs.design_numbers import OF_VALUES

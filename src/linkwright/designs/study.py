@@ -11,15 +11,14 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkwright.analysis.by_name import ask
+from linkwright.analysis.by_name import Asked, ask
 from linkwright.analysis.evaluate import unloaded
-from linkwright.analysis.of_output import Asked
 from linkwright.analysis.outputs import usual_output
 from linkwright.core.arguments import STEPS, require
 from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.attached import PlotMixin, attached
+from linkwright.core.data import Frozen
 from linkwright.core.progress import Progress, current_progress, part_of
-from linkwright.core.read_only import Frozen
 from linkwright.core.table import Table, Tabular, csv_text, unused
 from linkwright.designs.alternatives import Alternative
 from linkwright.designs.checkpoints import identity

@@ -15,9 +15,9 @@ from linkwright.analysis.by_name import wanted
 from linkwright.core.arguments import STEPS, integer, one_of, require
 from linkwright.core.arrays import Flags, Floats, Integers
 from linkwright.core.attached import PlotMixin
+from linkwright.core.data import Frozen
 from linkwright.core.progress import Progress, current_progress, part_of
 from linkwright.core.quantity import shown
-from linkwright.core.read_only import Frozen
 from linkwright.core.table import Table, Tabular, columns_table, unused
 from linkwright.cycle.summaries import Summary
 from linkwright.designs.cluster import current, in_order, in_turn

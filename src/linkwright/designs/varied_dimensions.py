@@ -19,7 +19,7 @@ from linkwright.core.arguments import one_or_more, require
 from linkwright.core.arrays import Floats
 from linkwright.designs.ranges import Range, dimension_of, parse_range
 from linkwright.errors import LinkwrightError, QuantityError, RequestError, with_remedy
-from linkwright.files.document import Document
+from linkwright.files.write import Document
 from linkwright.joints.toothed import Numbers, is_integer
 from linkwright.kinematics.assembly import AssemblyError
 from linkwright.kinematics.cycle import over_cycle

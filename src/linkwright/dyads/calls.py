@@ -12,8 +12,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from itertools import zip_longest
 
-from linkwright.dyads.listed_numbers import ZERO
 from linkwright.dyads.plan import Guide, Pin, Plan, Step
+from linkwright.dyads.script import ZERO
 from linkwright.kinematics.names import canonical
 from linkwright.mechanism.link import centre
 from linkwright.words import _

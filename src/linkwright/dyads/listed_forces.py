@@ -6,9 +6,8 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
-from linkwright.dyads.listed_numbers import call, number, pair, quoted, series
 from linkwright.dyads.plan import Guide, Step
-from linkwright.dyads.script import Script
+from linkwright.dyads.script import Script, call, number, pair, quoted, series
 from linkwright.elements import Connection
 from linkwright.kinetostatics.link_balance import applied_rows
 from linkwright.mechanism.link import centre

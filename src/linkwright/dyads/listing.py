@@ -10,11 +10,10 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import POINT, SLIDE, Output
 from linkwright.dyads.listed_forces import CROSS, ForceLines
-from linkwright.dyads.listed_numbers import WIDE, ZERO, angle, call, column, number, pair, quoted, series
 from linkwright.dyads.plan import Pin, Step
-from linkwright.dyads.script import Script
+from linkwright.dyads.script import WIDE, ZERO, Script, angle, call, column, number, pair, quoted, series
 from linkwright.words import _
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 _TITLES = {
     "bar": _("driven link {links}"),

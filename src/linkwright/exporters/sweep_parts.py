@@ -30,7 +30,7 @@ from linkwright.exporters.export import package
 from linkwright.filesystem import atomic_write, make_folder
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _, pgettext
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 Sampling = Literal["grid", "sobol"]
 #: Designs of a part; of a complete sweep, at most.

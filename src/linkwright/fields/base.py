@@ -23,7 +23,7 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Section
 from linkwright.fields.reading import Place, Reader
 from linkwright.words import LANGUAGES, Message, _, pgettext
-from linkwright.words.sentence import LocalizedText
+from linkwright.words.message import LocalizedText
 
 Schema = dict[str, Any]
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from linkwright import units
-from linkwright.core.read_only import FrozenDict, frozen
+from linkwright.core.data import FrozenDict, frozen
 from linkwright.errors import Finding
 from linkwright.words import _
 

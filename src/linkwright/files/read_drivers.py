@@ -20,7 +20,7 @@ from linkwright.joints.base import Joint, JointName
 from linkwright.mechanism.mechanism import Cycle
 from linkwright.registry import nearest
 from linkwright.words import _
-from linkwright.words.sentence import together
+from linkwright.words.message import together
 
 TURN_FIELDS: Mapping[str, Field] = {
     "turn": LinkName(required=True, moving=True, doc=_("the link that is turned")),

@@ -11,7 +11,7 @@ from linkwright.core.arguments import describe
 from linkwright.errors import Finding, ModelError, RequestError
 from linkwright.registry import nearest
 from linkwright.words import _, pgettext
-from linkwright.words.sentence import reason_of
+from linkwright.words.message import reason_of
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -16,7 +16,7 @@ from linkwright.joints.ends import Ends, Hung
 from linkwright.joints.lower_pair import SlidingJoint
 from linkwright.joints.revolute import FRICTION
 from linkwright.words import _
-from linkwright.words.sentence import together
+from linkwright.words.message import together
 
 if TYPE_CHECKING:
     from linkwright.elements import Sizes, TreeJoint

@@ -23,7 +23,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import nearest, offered
 from linkwright.topology.analysis import Structure
 from linkwright.words import Message, _
-from linkwright.words.sentence import lines
+from linkwright.words.message import lines
 
 #: Where modes are looked for if the drawn inputs are out of reach: near them, rad or shares of the size.
 NEARBY = (0.01, -0.01, 0.03, -0.03, 0.1, -0.1)

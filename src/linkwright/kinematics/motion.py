@@ -11,8 +11,8 @@ import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.attached import PlotMixin, attached
+from linkwright.core.data import FrozenDict, locked
 from linkwright.core.outputs import KINDS, NAMED, SLIDE, Output, row_name
-from linkwright.core.read_only import FrozenDict, locked
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.dimensions import Design, moving, pace_name
 from linkwright.kinematics.names import point_key
@@ -22,7 +22,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.topology import Structure
 from linkwright.words import _
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 if TYPE_CHECKING:
     import pandas

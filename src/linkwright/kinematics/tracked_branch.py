@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
-from linkwright.core.read_only import Frozen
+from linkwright.core.data import Frozen
 from linkwright.kinematics.branch import Branch, follow
 from linkwright.kinematics.continuation import SAME, BranchTracker
 from linkwright.kinematics.positions import Positions, off_law

@@ -11,8 +11,8 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import PlotMixin, attached
+from linkwright.core.data import locked
 from linkwright.core.outputs import kind_of, row_name, row_names
-from linkwright.core.read_only import locked
 from linkwright.errors import RequestError
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinetostatics.solver import ForceSolver

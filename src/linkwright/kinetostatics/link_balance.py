@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.data import locked
 from linkwright.core.outputs import row_name, row_names
-from linkwright.core.read_only import locked
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
 from linkwright.formula.trace import Scalar

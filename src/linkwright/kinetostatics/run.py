@@ -26,7 +26,7 @@ from linkwright.kinetostatics.solver import ForceSolver, caused_name
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.units import format as spelled
 from linkwright.words import Message, _
-from linkwright.words.sentence import together
+from linkwright.words.message import together
 
 #: Iterations of the friction, and the change, as share of what the largest reaction causes, at which these end.
 FRICTION_STEPS = 400

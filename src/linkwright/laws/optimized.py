@@ -14,7 +14,7 @@ from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
 from linkwright.fields.base import Quantities, Quantity, Word, file_key
 from linkwright.laws.base import MOTION_LAWS, MotionLaw
-from linkwright.laws.pieces import Pieces
+from linkwright.laws.spline_space import Pieces
 from linkwright.words import _
 
 AIMS = {"velocity": 1, "acceleration": 2, "jerk": 3, "residual": 0}

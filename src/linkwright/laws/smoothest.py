@@ -12,9 +12,8 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import number
 from linkwright.errors import Finding, ModelError, fault
-from linkwright.laws.pieces import Pieces
 from linkwright.laws.program import TURN, Program
-from linkwright.laws.spline_space import DEGREE, SplineSpace
+from linkwright.laws.spline_space import DEGREE, Pieces, SplineSpace
 from linkwright.words import _
 
 ORDERS = {"velocity": 1, "acceleration": 2, "jerk": 3}

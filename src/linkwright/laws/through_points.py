@@ -13,7 +13,7 @@ from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
 from linkwright.fields.base import Quantities, Quantity, file_key
 from linkwright.laws.base import MOTION_LAWS, Ends, MotionLaw
-from linkwright.laws.pieces import Pieces
+from linkwright.laws.spline_space import Pieces
 from linkwright.words import _
 
 #: Share of u that the shortest way between two points may be, and how many points there may be.

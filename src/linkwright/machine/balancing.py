@@ -11,7 +11,7 @@ from typing import Any
 from linkwright.analysis.analysis import Analysis
 from linkwright.core.arguments import STEPS, real, require
 from linkwright.core.attached import PlotMixin
-from linkwright.core.read_only import Frozen
+from linkwright.core.data import Frozen
 from linkwright.core.table import PERCENT, ROUNDING, Amount, Cell, Table, Tabular
 from linkwright.cycle.summaries import Summary
 from linkwright.errors import LinkwrightError, RequestError

@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import shown
-from linkwright.core.rows import Block, Numbers, Row
+from linkwright.core.table import Block, Numbers, Row
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.machine import running

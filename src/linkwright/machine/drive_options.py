@@ -16,7 +16,7 @@ from linkwright.fields.reading import Place, Reader
 from linkwright.fields.tables import Table
 from linkwright.machine.flywheel import COEFFICIENT, FlywheelSize, disk, rim
 from linkwright.words import Message, _
-from linkwright.words.sentence import code_of
+from linkwright.words.message import code_of
 
 if TYPE_CHECKING:
     from linkwright.machine.torque_curve import TorqueCurve

@@ -15,8 +15,7 @@ from linkwright.core.arguments import real, require
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import PlotMixin
 from linkwright.core.quantity import shown
-from linkwright.core.rows import Block, Numbers, Row
-from linkwright.core.table import PERCENT
+from linkwright.core.table import PERCENT, Block, Numbers, Row
 from linkwright.cycle.summaries import Summary
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinetostatics.forces import Forces

@@ -11,9 +11,9 @@ from typing import Any
 from linkwright.applied_loads.base import Load
 from linkwright.core.arguments import require
 from linkwright.core.attached import attached
+from linkwright.core.data import Frozen, FrozenDict, frozen
 from linkwright.core.expressions import Expression
 from linkwright.core.outputs import Output, rate_dimension
-from linkwright.core.read_only import Frozen, FrozenDict, frozen
 from linkwright.drivers.base import Driver
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.fields.base import Field, Quantities, Quantity
@@ -24,7 +24,7 @@ from linkwright.mechanism.link import Link, Vec
 from linkwright.registry import nearest, no_such
 from linkwright.units import LARGEST_OF_ALL, SI_UNITS, Dimension
 from linkwright.words import _
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 
 @dataclass(frozen=True)

@@ -16,12 +16,11 @@ from pathlib import Path
 import numpy as np
 
 from linkwright.core.arguments import STEPS, require
+from linkwright.core.data import Plain
 from linkwright.core.inputs import mode_inputs
-from linkwright.core.json_data import Plain
 from linkwright.core.outputs import row_name
-from linkwright.files.document import Document
 from linkwright.files.model_file import read_text
-from linkwright.files.write import dump
+from linkwright.files.write import Document, dump
 from linkwright.filesystem import atomic_write
 from linkwright.formula.wasm import wasm_module
 from linkwright.kinematics.motion import Motion
@@ -35,7 +34,7 @@ from linkwright.page.quantities import numbers, point_keys, signals, usual_curve
 from linkwright.page.texts import TEXTS
 from linkwright.plotting.drawing.machine import DrawnMechanism, fitted
 from linkwright.words import LANGUAGES, _
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 _TAGS = {"zh": "zh-CN"}
 

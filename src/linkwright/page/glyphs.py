@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.applied_loads.base import Load
-from linkwright.core.json_data import Plain
+from linkwright.core.data import Plain
 from linkwright.core.outputs import row_name
 from linkwright.joints.base import Joint
 from linkwright.joints.belt import BeltPair

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.json_data import Plain
+from linkwright.core.data import Plain
 from linkwright.core.outputs import row_name
 from linkwright.designs.varied_dimensions import (
     Written,
@@ -25,7 +25,7 @@ from linkwright.designs.varied_dimensions import (
 )
 from linkwright.errors import LinkwrightError
 from linkwright.files.check_mechanism import guides_at_odds
-from linkwright.files.document import Document
+from linkwright.files.write import Document
 from linkwright.joints.toothed import Numbers
 from linkwright.kinematics.cycle import time_span
 from linkwright.kinematics.motion import Motion

@@ -15,8 +15,8 @@ import numpy as np
 from linkwright.applied_loads.base import Load
 from linkwright.applied_loads.phases import Always, InputPhase, MovingPhase, SwingPhase
 from linkwright.core.arrays import Floats
+from linkwright.core.data import Plain
 from linkwright.core.inputs import mode_groups
-from linkwright.core.json_data import Plain
 from linkwright.core.outputs import SLIDE, Output, row_name, row_names
 from linkwright.elements import Group
 from linkwright.events.tracked_groups import TracedStep, chain_coordinates

@@ -8,7 +8,7 @@ import numpy as np
 
 from linkwright.analysis.outputs import mechanism_outputs
 from linkwright.core.arrays import Floats
-from linkwright.core.json_data import Plain
+from linkwright.core.data import Plain
 from linkwright.core.outputs import KINDS, Output, row_names
 from linkwright.kinematics.names import canonical
 from linkwright.kinetostatics.forces import reaction_pairs

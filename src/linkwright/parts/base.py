@@ -14,13 +14,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from linkwright.core.attached import PlotMixin, attached
 from linkwright.core.quantity import number
-from linkwright.core.rows import Numbers
-from linkwright.core.table import ROUNDING, unused
+from linkwright.core.table import ROUNDING, Numbers, unused
 from linkwright.equations.steps import Equation, Step
 from linkwright.errors import Finding, ModelError, speaker
 from linkwright.fields.base import Field, FileKeys, file_keys
 from linkwright.words import Translate
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 if TYPE_CHECKING:
     from typing import Self

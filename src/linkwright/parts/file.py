@@ -16,11 +16,10 @@ from linkwright.fields.nodes import Node, towards
 from linkwright.fields.reading import Place
 from linkwright.fields.sheet import FIELD as SHEET_SECTION
 from linkwright.files.calculations import refuse_task
-from linkwright.files.model_file import declared_kind, read_root
+from linkwright.files.model_file import declared_kind, json_schema, read_root
 from linkwright.files.node_reader import as_meant
 from linkwright.files.read_model import FORMAT, TASK_KEYS, read_parameters
 from linkwright.files.reader import Reader
-from linkwright.files.schema import json_schema
 from linkwright.files.source import read_source
 from linkwright.words import _
 

@@ -41,7 +41,7 @@ from linkwright.plotting.drawing.moving import (
 from linkwright.plotting.drawing.scene import Scene, frame_indices, key_indices, laid_out, point_labels, usual_seconds
 from linkwright.plotting.drawing.vectors import Arrows, scale_of
 from linkwright.words import _
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 if TYPE_CHECKING:
     from linkwright.kinetostatics.forces import Forces

@@ -30,7 +30,7 @@ from linkwright.plotting.free_bodies import (
     free_bodies,
 )
 from linkwright.words import Translate, _, pgettext
-from linkwright.words.sentence import link_label
+from linkwright.words.message import link_label
 
 #: Width of a cell, space between cells, height of a page's pictures, mm.
 WIDE, SPACING, TALLEST = 82.0, 6.0, 216.0

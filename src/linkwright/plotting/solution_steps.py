@@ -21,7 +21,7 @@ from linkwright.kinetostatics.forces import link_numbers
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.mechanism.wheels_and_cams import wheel_sizes
 from linkwright.words import Translate, _, say
-from linkwright.words.sentence import link_label
+from linkwright.words.message import link_label
 
 Shape = Literal["terminator", "data", "preparation", "process", "call", "decision"]
 #: Places to which decisions jump.

@@ -33,7 +33,7 @@ from linkwright.reports.sections.references import own_sources
 from linkwright.reports.settings import OTHER_SECTIONS, Chapter, Settings
 from linkwright.synthesis.tasks import TaskFile
 from linkwright.words import _
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 #: Characters across a page in a table.
 WIDEST = 108

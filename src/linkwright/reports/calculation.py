@@ -20,7 +20,7 @@ from linkwright.reports.sections.method import step_blocks, to_scale
 from linkwright.reports.sections.references import errata_blocks
 from linkwright.reports.settings import Settings
 from linkwright.words import Message, Translate, _
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 #: Sections of machines' reports whose own text follows a heading of a calculation, by the heading.
 PLACES: Mapping[Message, str] = {_("Purpose"): "task", _("Sketch"): "drawing", _("Solution"): "worked"}

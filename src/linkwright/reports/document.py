@@ -17,7 +17,7 @@ from linkwright.equations.reading import read_name
 from linkwright.reports.formula import formula, width
 from linkwright.words import Translate, _
 from linkwright.words.characters import cells
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 #: Signs that switch a style on and off, and those around the target of a link, a source, the label of a link.
 STYLES = {"strong": "\ue010", "emphasis": "\ue011", "raised": "\ue012", "struck": "\ue013"}

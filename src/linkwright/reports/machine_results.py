@@ -25,7 +25,7 @@ from linkwright.reports.numbers import ColumnHeadings, without_rounding
 from linkwright.reports.settings import Settings, worked_place
 from linkwright.topology.analysis import Structure
 from linkwright.words import Translate, _
-from linkwright.words.sentence import in_language, numbered_links
+from linkwright.words.message import in_language, numbered_links
 
 if TYPE_CHECKING:
     from linkwright.analysis.table import MetricsTable

@@ -7,10 +7,10 @@ import traceback
 from collections.abc import Callable
 from typing import Any
 
-from linkwright.core.json_data import Plain
+from linkwright.core.data import Plain
 from linkwright.errors import LinkwrightError
 from linkwright.words import _
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 
 class Stopped(Exception):

@@ -7,14 +7,13 @@ from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
+from linkwright.core.data import Plain
 from linkwright.core.expressions import amount
-from linkwright.core.json_data import Plain
 from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.files.compose import compose
-from linkwright.files.document import Document, content_end
-from linkwright.files.write import flow, scalar
+from linkwright.files.write import Document, content_end, flow, scalar
 from linkwright.words import _
 
 if TYPE_CHECKING:

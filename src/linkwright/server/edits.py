@@ -10,8 +10,8 @@ from contextlib import suppress
 from typing import Any
 
 from linkwright.applied_loads.force import Force
+from linkwright.core.data import Plain
 from linkwright.core.expressions import amount
-from linkwright.core.json_data import Plain
 from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar

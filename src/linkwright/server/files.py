@@ -11,13 +11,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from linkwright.core.json_data import Plain
+from linkwright.core.data import Plain
 from linkwright.errors import LinkwrightError
 from linkwright.files.source import decode
 from linkwright.filesystem import alone, atomic_write, make_folder
 from linkwright.words import _
 from linkwright.words.characters import UNFIT, printable
-from linkwright.words.sentence import reason_of
+from linkwright.words.message import reason_of
 
 _ENDINGS = (".yaml", ".yml", ".json")
 _DRAFTS = ".linkwright"

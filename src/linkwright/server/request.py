@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any, NoReturn, TypeVar
 
-from linkwright.core.json_data import Plain
+from linkwright.core.data import Plain
 from linkwright.errors import LinkwrightError
 from linkwright.words import _, pgettext
 from linkwright.words.characters import one_line

@@ -12,15 +12,14 @@ import numpy as np
 
 from linkwright.analysis import METRICS, metrics
 from linkwright.analysis.outputs import mechanism_outputs
-from linkwright.core.json_data import Plain
+from linkwright.core.data import Plain
 from linkwright.designs.criteria import criterion
 from linkwright.designs.optimise.optimize import optimize
 from linkwright.designs.optimise.optimum import OptimizeError, Optimum, comparison
 from linkwright.designs.optimise.problem import problem
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.files.document import Document
 from linkwright.files.model_file import read_text
-from linkwright.files.write import dump
+from linkwright.files.write import Document, dump
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.server.background import Job

@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
-from linkwright.core.json_data import Plain
+from linkwright.core.data import Plain
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.filesystem import atomic_write, make_folder
 from linkwright.formula.machine_code import folder as cache_folder

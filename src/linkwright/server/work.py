@@ -10,19 +10,19 @@ from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from linkwright.core.json_data import Plain
+from linkwright.core.data import Plain
 from linkwright.errors import Finding, LinkwrightError, ModelError, with_remedy
 from linkwright.file_check import checked_text
-from linkwright.files.document import Document
 from linkwright.files.model_file import gallery_names, read_text
 from linkwright.files.source import read_source
+from linkwright.files.write import Document
 from linkwright.server.background import Background
 from linkwright.server.draft import completed, picture
 from linkwright.server.edits import edited
 from linkwright.server.files import Files
 from linkwright.server.request import mapping, number, numbers, text
 from linkwright.words import LANGUAGES, _
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 #: What the studio hands out, by the ending of the file.
 TAKEN = (".report.pdf", ".report.html", ".html", ".xlsx", ".csv", ".json", ".svg", ".pdf", ".png", ".dxf")

@@ -33,7 +33,7 @@ from linkwright.sheets.paper import (
 from linkwright.sheets.settings import SHEETS, Content, Placed, Settings, Subject, settings
 from linkwright.sheets.written import svg
 from linkwright.words import _
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 #: Size of a kind of sheet where none is asked for, if it is not A1.
 USUAL = {"cam": "A2"}

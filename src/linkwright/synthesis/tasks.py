@@ -29,7 +29,7 @@ from linkwright.registry import listed, nearest
 from linkwright.synthesis.names import DEMAND_MISSING, DEMAND_UNKNOWN, NO_TASK
 from linkwright.synthesis.result import Synthesis, SynthesisError
 from linkwright.words import Message, _
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 if TYPE_CHECKING:
     from linkwright.synthesis.catalogue import Task

@@ -12,7 +12,7 @@ from linkwright.joints.base import JOINTS, PAIRS
 from linkwright.topology.mobility import lower_pair_counts
 from linkwright.topology.trains import GearTrain, written
 from linkwright.words import Translate, _, language_of, ngettext
-from linkwright.words.sentence import link_label
+from linkwright.words.message import link_label
 
 
 @dataclass(frozen=True)

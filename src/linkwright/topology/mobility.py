@@ -10,7 +10,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.topology.constraints import DRIVER, FRAME, ConstraintGraph
 from linkwright.topology.trains import GearTrain, blocking_pairs, gear_trains
 from linkwright.words import Message, _
-from linkwright.words.sentence import together
+from linkwright.words.message import together
 
 
 class StructureError(LinkwrightError):

@@ -17,7 +17,7 @@ from linkwright.files.model_file import load
 from linkwright.units import unit
 from linkwright.validation.probes import PROBES
 from linkwright.words import _
-from linkwright.words.sentence import LocalizedText, in_language
+from linkwright.words.message import LocalizedText, in_language
 
 
 @dataclass(frozen=True)

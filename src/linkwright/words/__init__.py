@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from linkwright.words.message import LANGUAGES, Message, _, ngettext, pgettext
-from linkwright.words.sentence import in_language
+from linkwright.words.message import LANGUAGES, Message, _, in_language, ngettext, pgettext
 
 __all__ = ["LANGUAGES", "Message", "Translate", "_", "in_language", "language_of", "ngettext", "pgettext", "say"]
 

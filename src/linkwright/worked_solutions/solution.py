@@ -19,7 +19,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.words import _, language_of
-from linkwright.words.sentence import link_label, numbered_links
+from linkwright.words.message import link_label, numbered_links
 from linkwright.worked_solutions.applied_forces import KnownForces
 from linkwright.worked_solutions.higher_pairs import closures
 from linkwright.worked_solutions.places import Places

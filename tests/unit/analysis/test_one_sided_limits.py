@@ -5,7 +5,7 @@ from math import inf
 import numpy as np
 import pytest
 
-from linkwright.analysis.one_sided_limits import AWAY, limit, weights
+from linkwright.analysis.reachable_intervals import AWAY, limit, weights
 
 
 def test_limits_of_what_is_smooth_kinked_and_unbounded() -> None:

@@ -22,8 +22,7 @@ from linkwright.applied_loads.sizes import Constant
 from linkwright.fields.base import Quantities, Quantity, Word
 from linkwright.fields.references import LinkName, PointName, PointPair, PointReference, PointReferences
 from linkwright.files.build import Model
-from linkwright.files.model_file import loads
-from linkwright.files.schema import json_schema
+from linkwright.files.model_file import json_schema, loads
 from linkwright.files.write import dump
 from linkwright.formula.linear_algebra import Vec
 from linkwright.joints.base import JointName

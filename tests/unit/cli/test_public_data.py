@@ -9,7 +9,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.cli import main
-from linkwright.core.json_data import plain
+from linkwright.core.data import plain
 from linkwright.files.calculations import COMMANDS
 from linkwright.machine.balancing import balance
 from linkwright.machine.running import steady_running

@@ -5,7 +5,7 @@ from types import ModuleType
 
 import pytest
 
-from linkwright.core.read_only import FrozenDict, frozen
+from linkwright.core.data import FrozenDict, frozen
 
 
 def test_mappings_are_made_read_only_while_another_thread_imports_numpy(monkeypatch: pytest.MonkeyPatch) -> None:

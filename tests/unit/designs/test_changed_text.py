@@ -10,8 +10,7 @@ import pytest
 
 import linkwright as lw
 from linkwright.designs.varied_dimensions import changed_text, digits
-from linkwright.files.document import Document
-from linkwright.files.write import dump
+from linkwright.files.write import Document, dump
 
 #: A machine as the studio draws it: all links have their lengths from the drawing, a wheel its phase.
 DRAWN = """\

@@ -7,11 +7,10 @@ import pytest
 import yaml
 
 from linkwright.fields.nodes import Mapping, Node, Scalar
-from linkwright.files import yaml_source
-from linkwright.files.compose import compose
+from linkwright.files import compose as yaml_source
+from linkwright.files.compose import _below, compose
 from linkwright.files.model_file import gallery_names, loads
 from linkwright.files.source import read_source
-from linkwright.files.yaml_source import _below
 
 
 def texts_at(text: str) -> list[str]:

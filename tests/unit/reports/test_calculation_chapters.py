@@ -11,7 +11,7 @@ from tests.every import every
 
 import linkwright as lw
 from linkwright import parts, units
-from linkwright.core.rows import Row
+from linkwright.core.table import Row
 from linkwright.equations.latex import latex
 from linkwright.equations.reading import filled, read, sides
 from linkwright.equations.reading import plain as unmarked

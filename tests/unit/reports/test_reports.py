@@ -17,7 +17,7 @@ from linkwright.cams.cam import cam_of
 from linkwright.core.outputs import Output
 from linkwright.equations.latex import latex
 from linkwright.errors import LinkwrightError, speaker
-from linkwright.files.schema import json_schema
+from linkwright.files.model_file import json_schema
 from linkwright.joints.cam import CamJoint
 from linkwright.kinetostatics.forces import reaction_pairs
 from linkwright.mechanism.wheels_and_cams import CamShape
@@ -31,7 +31,7 @@ from linkwright.reports.section import SECTIONS
 from linkwright.reports.sections.reactions import loaded_joints
 from linkwright.reports.settings import settings
 from linkwright.words import LANGUAGES, _, pgettext, say
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 typst = pytest.importorskip("typst")
 LIGHT = ["task", "structure", "method", "tables", "torque", "limits", "appendix", "references"]

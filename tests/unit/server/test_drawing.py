@@ -17,7 +17,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.files.model_file import read_text
 from linkwright.server.draft import picture
 from linkwright.server.edits import edited
-from linkwright.words.sentence import code_of, values_of
+from linkwright.words.message import code_of, values_of
 
 #: Codes of findings about names that are not there, and texts that are no YAML.
 GONE = ("unknown-name", "duplicate", "yaml")

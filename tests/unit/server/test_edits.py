@@ -13,8 +13,8 @@ from tests.ui.texts import FOURBAR
 
 import linkwright as lw
 from linkwright.designs.varied_dimensions import changed_text
-from linkwright.files.document import Document
 from linkwright.files.model_file import read_text
+from linkwright.files.write import Document
 from linkwright.server import edits
 from linkwright.server.work import new_text
 

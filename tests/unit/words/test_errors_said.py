@@ -6,7 +6,7 @@ import re
 
 from linkwright.errors import Finding, LinkwrightError, ModelError, QuantityError, with_remedy
 from linkwright.words import _
-from linkwright.words.sentence import code_of, lines, values_of
+from linkwright.words.message import code_of, lines, values_of
 
 STEEP = _(
     "the two slides are parallel (sine of the angle between them {sine})", code="outcome.rpp_parallel", sine="0"

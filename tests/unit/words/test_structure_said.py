@@ -20,7 +20,7 @@ from linkwright.kinematics.rank import rank_from_drawing
 from linkwright.kinematics.rank_of_motion import jacobian_rank, rank_sentence
 from linkwright.words import Message, _
 from linkwright.words.characters import cells
-from linkwright.words.sentence import code_of, in_language, values_of
+from linkwright.words.message import code_of, in_language, values_of
 
 CRUSHER = "jaw_crusher_sixbar"
 SYMBOLS = {"F", "n", "p", "p_H", "w", "m", "mm"}

@@ -9,7 +9,7 @@ from linkwright.cli.errors import UsageError, did_you_mean
 from linkwright.cli.options import Options, argument, force
 from linkwright.cli.session import Session
 from linkwright.words import _
-from linkwright.words.sentence import LocalizedText, in_language
+from linkwright.words.message import LocalizedText, in_language
 
 ACTIONS = ("list", "show", "copy")
 

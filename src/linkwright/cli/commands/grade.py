@@ -29,7 +29,7 @@ def run(options: Options, session: Session) -> int:
     """Grades, prints a row per sheet, writes them where asked; 1 where a sheet cannot be graded."""
     from linkwright.cli.files import present
     from linkwright.course.grade import grade
-    from linkwright.words.sentence import in_language
+    from linkwright.words.message import in_language
 
     found = grade(options.key, options.answers)
     faults = found.faults

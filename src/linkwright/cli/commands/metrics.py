@@ -11,7 +11,7 @@ from linkwright.cli.session import Session
 from linkwright.core.arguments import STEPS
 from linkwright.errors import LinkwrightError, about
 from linkwright.words import _
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 NO_NAMES = _('--names: "{text}" has an empty place between commas', code="metrics.no_names")
 
@@ -46,7 +46,7 @@ linkwright metrics crusher.yaml --output numbers.csv""",
 def run(options: Options, session: Session) -> int:
     """Prints or writes the numbers; 1 where the joint forces failed that some of them need, 2 where some of those
     that are named do not apply."""
-    from linkwright.analysis.of_model import applicable_metrics
+    from linkwright.analysis.evaluate import applicable_metrics
     from linkwright.cli.files import read_model, write_result
 
     names = metric_names(options.names)

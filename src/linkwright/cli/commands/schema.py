@@ -27,7 +27,7 @@ def run(options: Options, session: Session) -> int:
     from pathlib import Path
 
     from linkwright.cli.files import atomic_write
-    from linkwright.core.json_data import json_text
+    from linkwright.core.data import json_text
     from linkwright.parts.file import file_schema
 
     text = json_text(file_schema())

@@ -6,7 +6,7 @@ from linkwright.cli.command import command
 from linkwright.cli.options import Options, argument, count, flag
 from linkwright.cli.session import Session
 from linkwright.words import _
-from linkwright.words.sentence import reason_of
+from linkwright.words.message import reason_of
 
 LAST_PORT = 65535
 OUTSIDE = _("{name} is no model file below the folder in which the studio was started", code="studio.outside")

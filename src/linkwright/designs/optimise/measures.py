@@ -11,10 +11,9 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from linkwright import units
-from linkwright.analysis.by_name import ask
+from linkwright.analysis.by_name import Asked, ask
 from linkwright.analysis.evaluate import unloaded
 from linkwright.analysis.of_designs import MetricsOfDesigns
-from linkwright.analysis.of_output import Asked
 from linkwright.analysis.outputs import mechanism_outputs, usual_output
 from linkwright.core.arrays import Floats
 from linkwright.core.expressions import Expression, parse

@@ -37,9 +37,8 @@ from linkwright.designs.optimise.optimum import Choice, OptimizeError, Optimum, 
 from linkwright.designs.optimise.problem import problem
 from linkwright.designs.optimise.task import CHECKED, Judged, Task
 from linkwright.errors import LinkwrightError, ModelError, RequestError
-from linkwright.files.document import Document
 from linkwright.files.model_file import read_document
-from linkwright.files.write import dump
+from linkwright.files.write import Document, dump
 from linkwright.kinematics.motion import PositionError
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism

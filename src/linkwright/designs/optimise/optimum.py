@@ -13,15 +13,15 @@ import numpy as np
 from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import PlotMixin, attached
+from linkwright.core.data import Frozen
 from linkwright.core.quantity import in_kind, number, unit_of_kind, with_unit, written
-from linkwright.core.read_only import Frozen
 from linkwright.core.table import Cell, Table, Tabular
 from linkwright.designs.checkpoints import RESUME
 from linkwright.designs.criteria import Criterion
 from linkwright.designs.optimise.problem import Problem
 from linkwright.designs.varied_dimensions import changed_text
 from linkwright.errors import LinkwrightError, speaker
-from linkwright.files.document import Document
+from linkwright.files.write import Document
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import Message, Translate, _
 

@@ -12,8 +12,7 @@ import numpy as np
 from linkwright.analysis.by_name import wanted
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import shown
-from linkwright.core.rows import Block, Row
-from linkwright.core.table import PERCENT
+from linkwright.core.table import PERCENT, Block, Row
 from linkwright.designs.tolerance.pins import is_position
 from linkwright.designs.tolerance.spread import QUANTILES, SpreadNumbers
 from linkwright.designs.varied_dimensions import design_values

@@ -7,7 +7,7 @@ import json
 from typing import Any
 
 from linkwright.core import VERSION
-from linkwright.core.json_data import json_text, plain
+from linkwright.core.data import json_text, plain
 from linkwright.core.table import Tabular, csv_rows, csv_text
 from linkwright.exporters.export import FORMATS, Format, package
 from linkwright.exporters.results import Results, tables, wide

@@ -17,7 +17,7 @@ from linkwright.exporters.dxf import (
 )
 from linkwright.exporters.export import FORMATS, Format
 from linkwright.exporters.results import Results
-from linkwright.files.document import Document
+from linkwright.files.write import Document
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.pictures import svg as render
 from linkwright.plotting.drawing import draw

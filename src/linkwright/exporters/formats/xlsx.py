@@ -20,7 +20,7 @@ from linkwright.exporters.results import QUANTITIES, Results, Subject, tables
 from linkwright.units import NONE, si_symbol
 from linkwright.words import Message, _, pgettext
 from linkwright.words.characters import printable
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 LONGEST_TEXT = 32767
 MOST_ROWS, MOST_COLUMNS = 1_048_575, 16_384

@@ -13,8 +13,8 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import number, shown
-from linkwright.core.rows import Block, Row
 from linkwright.core.search import first_largest
+from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, fault
 from linkwright.fields.base import Quantities, Quantity, file_key

@@ -15,7 +15,7 @@ from linkwright.core.arguments import STEPS
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.plane import cross
 from linkwright.core.quantity import shown
-from linkwright.core.rows import Block, Row
+from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, LinkwrightError, SelfCheckError, fault
 from linkwright.fields.base import Quantity, Text, file_key

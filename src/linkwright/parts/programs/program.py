@@ -14,8 +14,7 @@ from linkwright import units
 from linkwright.core import expressions
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import in_kind, unit_of_kind
-from linkwright.core.rows import Block, Row
-from linkwright.core.table import in_si, unused
+from linkwright.core.table import Block, Row, in_si, unused
 from linkwright.equations.notation import Atom, row, sign, upright
 from linkwright.equations.reading import filled, measured, of_file, plain, sides
 from linkwright.equations.steps import Step, Written

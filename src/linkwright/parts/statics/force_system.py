@@ -12,7 +12,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import number, shown
-from linkwright.core.rows import Block, Row
+from linkwright.core.table import Block, Row
 from linkwright.equations.matrix import system
 from linkwright.equations.reading import measured, normal
 from linkwright.equations.steps import Step

@@ -10,7 +10,7 @@ from typing import ClassVar
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.rows import Block, Row
+from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, fault
 from linkwright.fields.base import Quantity, file_key

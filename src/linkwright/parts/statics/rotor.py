@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
 
-from linkwright.core.rows import Block, Row
+from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, fault
 from linkwright.fields.base import Quantity, file_key

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.rows import Block, Row
+from linkwright.core.table import Block, Row
 from linkwright.equations.matrix import ROUNDING, system
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, ModelError, fault

@@ -11,8 +11,7 @@ from typing import ClassVar
 from linkwright import units
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import number
-from linkwright.core.rows import Block, Row
-from linkwright.core.table import PARTS_PER_MILLION, Scale, in_si
+from linkwright.core.table import PARTS_PER_MILLION, Block, Row, Scale, in_si
 from linkwright.equations.reading import measured
 from linkwright.equations.steps import Step, Value
 from linkwright.errors import Finding, fault
@@ -46,7 +45,7 @@ from linkwright.parts.statistics.specs import (
     values_of,
 )
 from linkwright.words import Message, Translate, _, language_of, pgettext
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 #: A probability below this one counts as zero.
 TINY = 1e-12

@@ -14,8 +14,7 @@ from linkwright.analysis import Analysis
 from linkwright.core.arguments import CURVE_STEPS
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import shown
-from linkwright.core.rows import Block, Row
-from linkwright.core.table import PERCENT
+from linkwright.core.table import PERCENT, Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, LinkwrightError, fault
 from linkwright.fields.base import Quantity, Text, file_key

@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.rows import Block, Row
+from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, LinkwrightError, ModelError, fault
 from linkwright.fields.base import FileKeys, Quantity, Text, file_key

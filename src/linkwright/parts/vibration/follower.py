@@ -14,7 +14,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.expressions import Expression, parse
 from linkwright.core.quantity import number
-from linkwright.core.rows import Block, Row
+from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, QuantityError, RequestError, fault
 from linkwright.fields.base import Quantity, file_key

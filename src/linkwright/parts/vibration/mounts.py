@@ -13,7 +13,7 @@ import numpy as np
 from linkwright.core.arguments import STEPS
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.quantity import number, shown
-from linkwright.core.rows import Block, Row
+from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, LinkwrightError, ModelError, fault
 from linkwright.fields.base import Quantities, Quantity, file_key

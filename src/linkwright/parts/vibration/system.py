@@ -13,7 +13,7 @@ import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.quantity import number
-from linkwright.core.rows import Block, Row
+from linkwright.core.table import Block, Row
 from linkwright.equations.matrix import named_matrix
 from linkwright.equations.steps import Step
 from linkwright.errors import Finding, ModelError, fault
@@ -41,7 +41,7 @@ from linkwright.parts.vibration.components import (
 from linkwright.parts.vibration.linear import Linear, largest_between, tuned
 from linkwright.units import DIMENSIONS, SMALLEST
 from linkwright.words import Message, Translate, _, language_of
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 #: Curves of frequency and time have so many points.
 POINTS = 801

@@ -27,7 +27,7 @@ from linkwright.registry import Registry, listed
 from linkwright.units import parse
 from linkwright.words import Message, Translate, _, say
 from linkwright.words.characters import printable
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 T = TypeVar("T")
 D = TypeVar("D", Figure, Drawing)

@@ -30,7 +30,7 @@ from linkwright.plotting.free_bodies import STYLES, Action, free_bodies
 from linkwright.plotting.free_body_pages import free_body_pages
 from linkwright.plotting.solution_steps import flow_chart_steps
 from linkwright.words import _, pgettext
-from linkwright.words.sentence import numbered_links
+from linkwright.words.message import numbered_links
 
 
 @DIAGRAMS.register("flow_chart")

@@ -29,7 +29,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plotting.diagrams.axes import SYMBOLS, InputAxis, unit_of
 from linkwright.words import Translate, _
 from linkwright.words.characters import one_line
-from linkwright.words.sentence import LocalizedText
+from linkwright.words.message import LocalizedText
 
 Result: TypeAlias = Mechanism | Motion | Forces | SteadyRunning
 TURN = 2 * np.pi

@@ -46,7 +46,7 @@ from linkwright.plotting.drawing.vectors import (
     with_unit,
 )
 from linkwright.words import _, pgettext
-from linkwright.words.sentence import in_language, numbered_links
+from linkwright.words.message import in_language, numbered_links
 
 if TYPE_CHECKING:
     from linkwright.kinetostatics.forces import Forces

@@ -24,7 +24,7 @@ from linkwright.plotting.diagrams.marks import Curve
 from linkwright.plotting.diagrams.panels import Panel, stacked
 from linkwright.registry import offered
 from linkwright.words import _
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 FAILED = "#c0392b"
 #: From so many designs on, points would hide each other, and their number in cells is shown.

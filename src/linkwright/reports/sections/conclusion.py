@@ -28,7 +28,7 @@ from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.numbers import typeset
 from linkwright.reports.section import section
 from linkwright.words import Message, _
-from linkwright.words.sentence import in_words
+from linkwright.words.message import in_words
 
 #: Joint forces nearer to each other than this share are equal; a mean below this share of the peak is zero.
 EQUAL, NOTHING = 1e-9, 1e-6

@@ -16,7 +16,7 @@ from linkwright.reports.document import Block, Figure, Formula, Heading, Paragra
 from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.section import section
 from linkwright.words import _
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 #: Numbers that other sections print.
 ELSEWHERE = ("peak_reaction", "rms_reaction", "flywheel")

@@ -27,7 +27,7 @@ from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.section import section
 from linkwright.topology.trains import GearTrain, written
 from linkwright.words import _, pgettext
-from linkwright.words.sentence import link_label
+from linkwright.words.message import link_label
 
 
 @section("gears", _("Gears, racks and belts"), 8.5, optional=True)

@@ -23,7 +23,7 @@ from linkwright.reports.sections.curves import SHARE
 from linkwright.reports.sections.curves import TALLEST as SHORT
 from linkwright.reports.sections.method import step_blocks
 from linkwright.words import _
-from linkwright.words.sentence import in_words
+from linkwright.words.message import in_words
 
 #: Joint forces in one figure; hodographs in one where there are more, two rows, of which a page has room for two
 #: figures; the height of one of hodographs, mm.

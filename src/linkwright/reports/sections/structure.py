@@ -22,7 +22,7 @@ from linkwright.reports.section import section
 from linkwright.topology.analysis import numeral
 from linkwright.topology.mobility import lower_pair_counts
 from linkwright.words import _, pgettext
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 
 @section("structure", _("Structure analysis"), 3.0)

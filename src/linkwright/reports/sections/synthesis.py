@@ -14,7 +14,7 @@ from linkwright.reports.settings import Settings
 from linkwright.synthesis.result import Synthesis, SynthesisError
 from linkwright.synthesis.tasks import TaskFile
 from linkwright.words import Translate, _
-from linkwright.words.sentence import in_language
+from linkwright.words.message import in_language
 
 #: Share of the page's width that a diagram takes, and one with a function next to the linkages.
 WIDTH, WIDE = 0.75, 1.0
