@@ -18,7 +18,7 @@ from linkwright.files.model_file import declared_kind, is_task, read_root, read_
 from linkwright.files.read_model import HEADER, TASK_KEYS
 from linkwright.files.reader import Reader
 from linkwright.files.source import read_source
-from linkwright.words import _
+from linkwright.words import Message, _
 from linkwright.words.message import code_of
 
 if TYPE_CHECKING:
@@ -59,6 +59,17 @@ class Checked:
     def errors(self) -> int:
         """How many errors the file has."""
         return sum(each.severity == "error" for each in self.findings)
+
+    def summary(self, name: str) -> Message:
+        """How many errors the file of this name has, or what it is."""
+        if self.errors:
+            return _("{name}: errors: {count}", name=name, count=self.errors)
+        if "kind" in self.fact:
+            return _("{name}: fine (kind {kind})", name=name, kind=self.fact["kind"])
+        links, mobility = self.fact["links"], self.fact["mobility"]
+        return _(
+            "{name}: fine ({links} moving links, mobility {mobility})", name=name, links=links, mobility=mobility
+        )
 
     def data(self) -> dict[str, Any]:
         """Plain data."""

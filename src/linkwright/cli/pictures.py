@@ -9,8 +9,7 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.files import read_model
 from linkwright.cli.options import Decorator, Options, count, flag, fonts, force, option, output, together
 from linkwright.cli.positions import one_place
-from linkwright.cli.progress import progress
-from linkwright.cli.session import Session
+from linkwright.cli.session import Session, progress
 from linkwright.errors import LinkwrightError, about
 from linkwright.fields.tables import Integer
 from linkwright.words import Message, _

@@ -1,10 +1,10 @@
-"""What a command knows about where it runs: language, form of the output, terminal."""
+"""What a command knows about where it runs: language, form of the output, terminal, progress of long work."""
 
 from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, cast
@@ -14,13 +14,15 @@ from rich.table import Table as Columns
 from rich.text import Text
 
 from linkwright.cli.errors import OutputError
+from linkwright.core.progress import Progress, reporting
 from linkwright.errors import Finding
-from linkwright.words import Translate, _
+from linkwright.words import Message, Translate, _
 from linkwright.words.characters import terminal_text
 from linkwright.words.message import in_language, reason_of
 
 if TYPE_CHECKING:
     from linkwright.core.table import Table, Tabular
+
 
 #: Width of tables where there is no terminal, as in a pipe or a file.
 PIPE_WIDTH = 100
@@ -194,3 +196,47 @@ def _writing() -> Iterator[None]:
         raise OutputError(
             _("the output cannot be written ({reason})", code="cli.output_lost", reason=reason_of(problem))
         ) from None
+
+
+@contextmanager
+def progress(session: Session, what: Message) -> Iterator[Progress | None]:
+    """A function that is called with (done, total) and moves a bar with the remaining time; None where there is no
+    terminal. All long work within the block calls it as well. The bar is removed at the end."""
+    console = session.errors
+    if not console.is_terminal:
+        yield None
+        return
+    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
+    from rich.progress import Progress as Bar
+
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Bar(*columns, console=console, transient=True, redirect_stdout=False) as bar:
+        task = bar.add_task(session.say(what), total=None)
+
+        def report(done: int, total: int) -> None:
+            if done < bar.tasks[0].completed:  # the next one of several pieces of work
+                bar.reset(task, total=total)
+            bar.update(task, completed=done, total=total)
+            if done >= total:
+                bar.stop()  # the result may be printed now
+            elif not bar.live.is_started:
+                bar.start()
+
+        with reporting(report):
+            yield report
+
+
+@contextmanager
+def resumable(state: str | None, name: str, inputs: Iterable[object], session: Session) -> Iterator[Progress | None]:
+    """Work with a bar whose finished parts are stored in ``state``; an interruption names the file to resume from."""
+    from linkwright.designs.checkpoints import RESUME, Interrupted, checkpointing
+
+    try:
+        with (
+            progress(session, _("computing designs")) as report,
+            checkpointing(state, name, *inputs, progress=report),
+        ):
+            yield report
+    except Interrupted as stopped:
+        session.tell(session.say(RESUME.format(path=stopped.state)))
+        raise

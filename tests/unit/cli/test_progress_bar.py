@@ -4,8 +4,7 @@ import sys
 
 import pytest
 
-from linkwright.cli.progress import progress
-from linkwright.cli.session import Session
+from linkwright.cli.session import Session, progress
 from linkwright.errors import speaker
 from linkwright.words import _
 

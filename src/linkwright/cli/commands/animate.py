@@ -53,7 +53,7 @@ linkwright animate crusher.yaml --forces --curves driver.effort --seconds 4 --ou
 def run(options: Options, session: Session) -> int:
     """Writes the moving picture; 1 where positions of the cycle were left out."""
     from linkwright.cli.files import read_model
-    from linkwright.cli.progress import progress
+    from linkwright.cli.session import progress
     from linkwright.plotting.animation import animate
 
     seconds = duration(options.seconds, "--seconds")

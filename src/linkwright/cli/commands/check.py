@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from linkwright.cli.command import command
 from linkwright.cli.options import Options, argument, flag
 from linkwright.cli.session import Session, bold
 from linkwright.errors import NO_FILE
 from linkwright.words import _
-
-if TYPE_CHECKING:
-    from linkwright.file_check import Checked
 
 
 @command(
@@ -42,30 +37,10 @@ def run(options: Options, session: Session) -> int:
         session.show_data({"ok": all(entry["ok"] for entry in files), "files": files})
     else:
         for name, found in results:
-            _show(name, found, session)
+            summary = session.say(found.summary(name))
+            session.show(*map(session.finding, found.findings), bold(summary) if found.errors else summary)
     everything = [finding for _unused, found in results for finding in found.findings]
     if any(finding.code in NO_FILE for finding in everything):
         return 2
     grave = {"error", "warning"} if options.strict else {"error"}
     return int(any(finding.severity in grave for finding in everything))
-
-
-def _show(name: str, found: Checked, session: Session) -> None:
-    for finding in found.findings:
-        session.show(session.finding(finding))
-    fact = found.fact
-    if found.errors:
-        session.show(bold(session.say(_("{name}: errors: {count}", name=name, count=found.errors))))
-    elif "kind" in fact:
-        session.show(session.say(_("{name}: fine (kind {kind})", name=name, kind=fact["kind"])))
-    else:
-        session.show(
-            session.say(
-                _(
-                    "{name}: fine ({links} moving links, mobility {mobility})",
-                    name=name,
-                    links=fact["links"],
-                    mobility=fact["mobility"],
-                )
-            )
-        )

@@ -76,7 +76,7 @@ linkwright compare a.yaml b.yaml --of jaw ram          the output of each"""
 def run(options: Options, session: Session) -> int:
     """Compares the machines and prints or writes what came out."""
     from linkwright.cli.files import present, read_model, write_table
-    from linkwright.cli.progress import progress
+    from linkwright.cli.session import progress
     from linkwright.designs.compare import compare, overlay_columns, overlay_data
 
     if len(options.files) < 2:

@@ -51,7 +51,7 @@ linkwright optimize crusher.yaml --minimize peak_input_torque flywheel --plot fr
 def run(options: Options, session: Session) -> int:
     """Optimises and prints or writes what came out; 1 where a demand cannot be met."""
     from linkwright.cli.files import write_diagram
-    from linkwright.cli.progress import progress
+    from linkwright.cli.session import progress
     from linkwright.designs.checkpoints import RESUME, Interrupted
     from linkwright.designs.cluster import on_cluster
     from linkwright.designs.optimise.optimize import optimize

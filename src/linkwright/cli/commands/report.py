@@ -72,7 +72,7 @@ def run(options: Options, session: Session) -> int:
     """Writes the report; sections that have nothing to show are named on the console."""
     from linkwright.cli.files import read_model
     from linkwright.cli.positions import joined
-    from linkwright.cli.progress import progress
+    from linkwright.cli.session import progress
     from linkwright.parts.file import kind_of
     from linkwright.reports.report import report
     from linkwright.synthesis.tasks import task_file

@@ -69,7 +69,7 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
 def run(options: Options, session: Session) -> int:
     """Studies the designs and prints or writes what came out."""
     from linkwright.cli.files import present, read_model
-    from linkwright.cli.progress import resumable
+    from linkwright.cli.session import resumable
     from linkwright.designs.cluster import on_cluster
     from linkwright.designs.study import study
     from linkwright.files.write import dump

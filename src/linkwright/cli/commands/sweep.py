@@ -57,7 +57,7 @@ linkwright sweep crusher.yaml --vary pitman.length=1.1..1.4m --sampling sobol --
 def run(options: Options, session: Session) -> int:
     """Computes the missing parts and says what lies in the folder."""
     from linkwright.cli.files import read_model
-    from linkwright.cli.progress import progress
+    from linkwright.cli.session import progress
     from linkwright.exporters.sweep_parts import sweep_parts
 
     mechanism, _findings = read_model(options.file, session)

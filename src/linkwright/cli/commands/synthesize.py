@@ -62,7 +62,7 @@ linkwright synthesize press.yaml --json""",
 def run(options: Options, session: Session) -> int:
     """Runs the task and shows or writes its candidates; 1 where a demand cannot be met."""
     from linkwright.cli import candidates
-    from linkwright.cli.progress import resumable
+    from linkwright.cli.session import resumable
     from linkwright.designs.cluster import on_cluster
     from linkwright.synthesis.linkage import input_speed
     from linkwright.synthesis.result import SynthesisError

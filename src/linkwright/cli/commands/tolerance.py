@@ -48,7 +48,7 @@ linkwright tolerance study.yaml --output machines.csv""",
 @state
 def run(options: Options, session: Session) -> int:
     """Solves the file's problem; its drawn machines are computed by threads or a cluster."""
-    from linkwright.cli.progress import resumable
+    from linkwright.cli.session import resumable
     from linkwright.designs.cluster import on_cluster
     from linkwright.parts.file import solve
 

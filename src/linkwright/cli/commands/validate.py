@@ -27,7 +27,7 @@ linkwright validate --json""",
 @flag("--every", help=_("a line for every number"))
 def run(options: Options, session: Session) -> int:
     """Compares and prints; 1 where a number differs."""
-    from linkwright.cli.progress import progress
+    from linkwright.cli.session import progress
     from linkwright.validation.validate import published, validate
 
     wanted = options.case.casefold()

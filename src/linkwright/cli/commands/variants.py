@@ -57,7 +57,7 @@ linkwright variants crusher.yaml --count 30 --to sheets key moodle --output exer
 def run(options: Options, session: Session) -> int:
     """Finds the variants and writes their files."""
     from linkwright.cli.files import read_model
-    from linkwright.cli.progress import progress
+    from linkwright.cli.session import progress
     from linkwright.course.questions import FORMS
     from linkwright.course.variants import variants
 
