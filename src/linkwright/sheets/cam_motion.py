@@ -14,7 +14,7 @@ from linkwright.core.quantity import significant
 from linkwright.laws.program import TURN
 from linkwright.pictures.picture import MIN_TEXT, TEXT, Picture, Runs, as_runs, indexed, joined, runs_width
 from linkwright.sheets.cam_division import Phase, divided, graphical, phases
-from linkwright.sheets.panel import Drawn, Panel, preferred
+from linkwright.sheets.layout import Drawn, Panel, preferred
 from linkwright.words import Translate, _
 
 #: Shares of the height for lift, velocity and acceleration; space above and below each strip, mm.

@@ -27,8 +27,8 @@ from linkwright.sheets.cam_division import (
     sharpest,
     widest_gap,
 )
+from linkwright.sheets.layout import Drawn, Panel, drawing_scale, scale_text
 from linkwright.sheets.machine import frame_pin, guide
-from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
 from linkwright.words import Translate, _
 
 _DENSE = 1440

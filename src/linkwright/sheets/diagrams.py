@@ -26,8 +26,8 @@ from linkwright.plotting.diagrams.motion_polygons import (
 from linkwright.plotting.diagrams.panels import Panel as Plotted
 from linkwright.plotting.diagrams.scaled_page import SHARES, SHORT, corners, end_to_end
 from linkwright.plotting.free_bodies import Action
+from linkwright.sheets.layout import Drawn, Panel, preferred
 from linkwright.sheets.machine import Positions, Shown
-from linkwright.sheets.panel import Drawn, Panel, preferred
 from linkwright.units import si_unit
 from linkwright.words import Message, _
 

@@ -29,7 +29,7 @@ from linkwright.plotting.drawing.machine import View, extent_of
 from linkwright.plotting.drawing.scene import Scene, laid_out, link_labels, point_labels
 from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.settings import settings as report_settings
-from linkwright.sheets.panel import Drawn, Panel, drawing_scale, scale_text
+from linkwright.sheets.layout import Drawn, Panel, drawing_scale, scale_text
 from linkwright.sheets.settings import Subject, places
 from linkwright.words import _, pgettext
 

@@ -19,7 +19,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem
 from linkwright.registry import Registry
 from linkwright.reports.settings import worked_place
-from linkwright.sheets.panel import Panel
+from linkwright.sheets.layout import Panel
 from linkwright.sheets.paper import Fields, Paper, Standard
 from linkwright.words import Message, Translate, _
 

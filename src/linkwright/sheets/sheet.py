@@ -16,8 +16,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Problem
 from linkwright.pictures.picture import CAPTION, MIN_TEXT, TEXT, Box, Picture, Text
 from linkwright.registry import listed
-from linkwright.sheets.layout import GAP, Room, laid_out
-from linkwright.sheets.panel import Block, Panel, block_of
+from linkwright.sheets.layout import GAP, Block, Panel, Room, block_of, laid_out
 from linkwright.sheets.paper import (
     BAR,
     BAR_HEIGHT,

@@ -5,8 +5,7 @@ import pytest
 
 from linkwright.errors import speaker
 from linkwright.pictures.picture import Box, Circle, Line, Picture
-from linkwright.sheets.layout import GAP, Room, packed
-from linkwright.sheets.panel import Block, drawing_scale, preferred, scale_text
+from linkwright.sheets.layout import GAP, Block, Room, drawing_scale, packed, preferred, scale_text
 from linkwright.sheets.paper import Fields, gb_block, iso_block, school_block, zone_count
 from linkwright.sheets.settings import settings
 from linkwright.sheets.written import visible

@@ -21,7 +21,7 @@ from linkwright.registry import listed
 from linkwright.sheets.cam_division import Phase, divided, phases, pitch_of
 from linkwright.sheets.cam_motion import MotionPanel
 from linkwright.sheets.cam_profile import DevelopmentPanel, ProfilePanel
-from linkwright.sheets.panel import Drawn, TablePanel
+from linkwright.sheets.layout import Drawn, TablePanel
 from linkwright.sheets.settings import SHEETS, Content, Subject
 from linkwright.words import Message, Translate, _, pgettext
 

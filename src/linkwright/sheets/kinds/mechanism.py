@@ -24,8 +24,8 @@ from linkwright.plotting.diagrams.pages import link_forces, worth_drawing
 from linkwright.plotting.diagrams.panels import Panel as Plotted
 from linkwright.plotting.diagrams.source import PlotInput, main_output
 from linkwright.sheets.diagrams import AccelerationPanel, CurvePanel, ForcePanel, VelocityPanel
+from linkwright.sheets.layout import Panel, TablePanel
 from linkwright.sheets.machine import MachinePanel, Positions
-from linkwright.sheets.panel import Panel, TablePanel
 from linkwright.sheets.settings import SHEETS, Content, Subject
 from linkwright.words import _
 
