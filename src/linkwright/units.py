@@ -17,75 +17,43 @@ from linkwright.words import Message, _
 
 Dimension = tuple[float, float, float, float]
 
-#: What a value of a dimension is called.
-NOUNS = {
-    "dimensionless": _("a dimensionless number"),
-    "length": _("a length"),
-    "angle": _("an angle"),
-    "time": _("a time"),
-    "mass": _("a mass"),
-    "inertia": _("an inertia"),
-    "velocity": _("a velocity"),
-    "acceleration": _("an acceleration"),
-    "angular_velocity": _("an angular velocity"),
-    "angular_acceleration": _("an angular acceleration"),
-    "frequency": _("a frequency"),
-    "force": _("a force"),
-    "torque": _("a torque"),
-    "power": _("a power"),
-    "pressure": _("a pressure"),
-    "area": _("an area"),
-    "volume": _("a volume"),
-    "density": _("a density"),
-    "stiffness": _("a stiffness"),
-    "damping": _("a damping"),
-    "torsional_stiffness": _("a torsional stiffness"),
-    "torsional_damping": _("a torsional damping"),
-    "second_moment_of_area": _("a second moment of area"),
-    "mass_moment": _("a mass moment"),
-    "length_per_angle": _("a length per angle"),
-    "length_per_angle_squared": _("a length per angle squared"),
-    "per_angle": _("a value per angle"),
-    "line_load": _("a line load"),
-    "linear_density": _("a linear density"),
-}
-
 NONE: Dimension = (0, 0, 0, 0)
-#: Dimensions by name: their powers, the SI unit, and a bound that no machine reaches, in SI: beyond it is a mistake
-#: in a number or its unit, and squares of it stay finite.
-_DIMENSIONS: Mapping[str, tuple[Dimension, str, float]] = {
-    "dimensionless": (NONE, "", 1e12),
-    "length": ((1, 0, 0, 0), "m", 1e7),
-    "angle": ((0, 0, 0, 1), "rad", 1e9),
-    "time": ((0, 0, 1, 0), "s", 1e10),
-    "mass": ((0, 1, 0, 0), "kg", 1e12),
-    "inertia": ((2, 1, 0, 0), "kg·m²", 1e24),
-    "velocity": ((1, 0, -1, 0), "m/s", 3e8),
-    "acceleration": ((1, 0, -2, 0), "m/s²", 1e12),
-    "angular_velocity": ((0, 0, -1, 1), "rad/s", 1e8),
-    "angular_acceleration": ((0, 0, -2, 1), "rad/s²", 1e14),
-    "frequency": ((0, 0, -1, 0), "Hz", 1e9),
-    "force": ((1, 1, -2, 0), "N", 1e15),
-    "torque": ((2, 1, -2, 0), "N·m", 1e18),
-    "power": ((2, 1, -3, 0), "W", 1e18),
-    "pressure": ((-1, 1, -2, 0), "Pa", 1e14),
-    "area": ((2, 0, 0, 0), "m²", 1e14),
-    "volume": ((3, 0, 0, 0), "m³", 1e21),
-    "density": ((-3, 1, 0, 0), "kg/m³", 1e8),
-    "stiffness": ((0, 1, -2, 0), "N/m", 1e18),
-    "damping": ((0, 1, -1, 0), "N·s/m", 1e18),
-    "torsional_stiffness": ((2, 1, -2, -1), "N·m/rad", 1e21),
-    "torsional_damping": ((2, 1, -1, -1), "N·m·s/rad", 1e21),
-    "second_moment_of_area": ((4, 0, 0, 0), "m⁴", 1e12),
-    "line_load": ((0, 1, -2, 0), "N/m", 1e15),
-    "linear_density": ((-1, 1, 0, 0), "kg/m", 1e12),
-    "mass_moment": ((1, 1, 0, 0), "kg·m", 1e18),
-    "length_per_angle": ((1, 0, 0, -1), "m/rad", 1e7),
-    "length_per_angle_squared": ((1, 0, 0, -2), "m/rad²", 1e7),
-    "per_angle": ((0, 0, 0, -1), "1/rad", 1e7),
+#: Dimensions by name: what a value of one is called, its powers, the SI unit, and a bound that no machine reaches, in
+#: SI: beyond it is a mistake in a number or its unit, and squares of it stay finite.
+_DIMENSIONS: Mapping[str, tuple[Message, Dimension, str, float]] = {
+    "dimensionless": (_("a dimensionless number"), NONE, "", 1e12),
+    "length": (_("a length"), (1, 0, 0, 0), "m", 1e7),
+    "angle": (_("an angle"), (0, 0, 0, 1), "rad", 1e9),
+    "time": (_("a time"), (0, 0, 1, 0), "s", 1e10),
+    "mass": (_("a mass"), (0, 1, 0, 0), "kg", 1e12),
+    "inertia": (_("an inertia"), (2, 1, 0, 0), "kg·m²", 1e24),
+    "velocity": (_("a velocity"), (1, 0, -1, 0), "m/s", 3e8),
+    "acceleration": (_("an acceleration"), (1, 0, -2, 0), "m/s²", 1e12),
+    "angular_velocity": (_("an angular velocity"), (0, 0, -1, 1), "rad/s", 1e8),
+    "angular_acceleration": (_("an angular acceleration"), (0, 0, -2, 1), "rad/s²", 1e14),
+    "frequency": (_("a frequency"), (0, 0, -1, 0), "Hz", 1e9),
+    "force": (_("a force"), (1, 1, -2, 0), "N", 1e15),
+    "torque": (_("a torque"), (2, 1, -2, 0), "N·m", 1e18),
+    "power": (_("a power"), (2, 1, -3, 0), "W", 1e18),
+    "pressure": (_("a pressure"), (-1, 1, -2, 0), "Pa", 1e14),
+    "area": (_("an area"), (2, 0, 0, 0), "m²", 1e14),
+    "volume": (_("a volume"), (3, 0, 0, 0), "m³", 1e21),
+    "density": (_("a density"), (-3, 1, 0, 0), "kg/m³", 1e8),
+    "stiffness": (_("a stiffness"), (0, 1, -2, 0), "N/m", 1e18),
+    "damping": (_("a damping"), (0, 1, -1, 0), "N·s/m", 1e18),
+    "torsional_stiffness": (_("a torsional stiffness"), (2, 1, -2, -1), "N·m/rad", 1e21),
+    "torsional_damping": (_("a torsional damping"), (2, 1, -1, -1), "N·m·s/rad", 1e21),
+    "second_moment_of_area": (_("a second moment of area"), (4, 0, 0, 0), "m⁴", 1e12),
+    "line_load": (_("a line load"), (0, 1, -2, 0), "N/m", 1e15),
+    "linear_density": (_("a linear density"), (-1, 1, 0, 0), "kg/m", 1e12),
+    "mass_moment": (_("a mass moment"), (1, 1, 0, 0), "kg·m", 1e18),
+    "length_per_angle": (_("a length per angle"), (1, 0, 0, -1), "m/rad", 1e7),
+    "length_per_angle_squared": (_("a length per angle squared"), (1, 0, 0, -2), "m/rad²", 1e7),
+    "per_angle": (_("a value per angle"), (0, 0, 0, -1), "1/rad", 1e7),
 }
-DIMENSIONS: Mapping[str, Dimension] = {name: powers for name, (powers, _unused, _unused2) in _DIMENSIONS.items()}
-SI_UNITS: Mapping[str, str] = {name: unit for name, (_unused, unit, _unused2) in _DIMENSIONS.items()}
+NOUNS: Mapping[str, Message] = {name: each[0] for name, each in _DIMENSIONS.items()}
+DIMENSIONS: Mapping[str, Dimension] = {name: each[1] for name, each in _DIMENSIONS.items()}
+SI_UNITS: Mapping[str, str] = {name: each[2] for name, each in _DIMENSIONS.items()}
 #: Dimensions of results that nobody gives, with their SI units.
 FURTHER: Mapping[str, str] = {
     "energy": "J",
@@ -112,7 +80,7 @@ OF_CALCULATIONS: Mapping[str, str] = {
     "distance": "m",
 }
 _SI_OF_ALL: Mapping[str, str] = {**SI_UNITS, **FURTHER, **OF_CALCULATIONS}
-LARGEST: Mapping[str, float] = {name: largest for name, (_unused, _unused2, largest) in _DIMENSIONS.items()}
+LARGEST: Mapping[str, float] = {name: each[3] for name, each in _DIMENSIONS.items()}
 #: For a quantity of any other dimension.
 LARGEST_OF_ALL = max(LARGEST.values())
 #: A size that must be above zero is not smaller in any machine, SI.
@@ -121,140 +89,43 @@ USUAL_UNITS: Mapping[str, str] = {**SI_UNITS, "length": "mm", "angle": "deg", "a
 
 #: Standard acceleration of free fall, m/s².
 GRAVITY = 9.80665
-_FORCE, _ENERGY, _POWER, _PRESSURE = (1, 1, -2, 0), (2, 1, -2, 0), (2, 1, -3, 0), (-1, 1, -2, 0)
+#: Units by dimension, each with its factor to SI.
+_UNIT_TABLE = """\
+length: m 1, mm 1e-3, cm 1e-2, dm 1e-1, km 1e3, µm 1e-6, μm 1e-6, um 1e-6, in 0.0254, ft 0.3048
+time: s 1, ms 1e-3, min 60, h 3600
+mass: kg 1, g 1e-3, t 1e3, lb 0.45359237
+force: N 1, mN 1e-3, kN 1e3, MN 1e6, lbf 4.4482216152605, kgf g0
+torque: J 1, kJ 1e3
+power: W 1, kW 1e3
+pressure: Pa 1, kPa 1e3, MPa 1e6, GPa 1e9, bar 1e5
+angle: rad 1, mrad 1e-3, deg π/180, ° π/180, rev 2π
+angular_velocity: rpm 2π/60
+frequency: Hz 1
+dimensionless: % 1e-2
+"""
 _TURN = 2 * math.pi
+_FACTORS = {"g0": GRAVITY, "π/180": math.pi / 180, "2π": _TURN, "2π/60": _TURN / 60}
 UNITS: Mapping[str, tuple[float, Dimension]] = {
-    "m": (1.0, (1, 0, 0, 0)),
-    "mm": (1e-3, (1, 0, 0, 0)),
-    "cm": (1e-2, (1, 0, 0, 0)),
-    "dm": (1e-1, (1, 0, 0, 0)),
-    "km": (1e3, (1, 0, 0, 0)),
-    "µm": (1e-6, (1, 0, 0, 0)),
-    "μm": (1e-6, (1, 0, 0, 0)),
-    "um": (1e-6, (1, 0, 0, 0)),
-    "in": (0.0254, (1, 0, 0, 0)),
-    "ft": (0.3048, (1, 0, 0, 0)),
-    "s": (1.0, (0, 0, 1, 0)),
-    "ms": (1e-3, (0, 0, 1, 0)),
-    "min": (60.0, (0, 0, 1, 0)),
-    "h": (3600.0, (0, 0, 1, 0)),
-    "kg": (1.0, (0, 1, 0, 0)),
-    "g": (1e-3, (0, 1, 0, 0)),
-    "t": (1e3, (0, 1, 0, 0)),
-    "lb": (0.45359237, (0, 1, 0, 0)),
-    "N": (1.0, _FORCE),
-    "mN": (1e-3, _FORCE),
-    "kN": (1e3, _FORCE),
-    "MN": (1e6, _FORCE),
-    "lbf": (4.4482216152605, _FORCE),
-    "kgf": (GRAVITY, _FORCE),
-    "J": (1.0, _ENERGY),
-    "kJ": (1e3, _ENERGY),
-    "W": (1.0, _POWER),
-    "kW": (1e3, _POWER),
-    "Pa": (1.0, _PRESSURE),
-    "kPa": (1e3, _PRESSURE),
-    "MPa": (1e6, _PRESSURE),
-    "GPa": (1e9, _PRESSURE),
-    "bar": (1e5, _PRESSURE),
-    "rad": (1.0, (0, 0, 0, 1)),
-    "mrad": (1e-3, (0, 0, 0, 1)),
-    "deg": (math.pi / 180, (0, 0, 0, 1)),
-    "°": (math.pi / 180, (0, 0, 0, 1)),
-    "rev": (_TURN, (0, 0, 0, 1)),
-    "rpm": (_TURN / 60, (0, 0, -1, 1)),
-    "Hz": (1.0, (0, 0, -1, 0)),
-    "%": (1e-2, NONE),
+    name: (_FACTORS.get(factor) or float(factor), DIMENSIONS[dimension])
+    for dimension, _unused, row in (line.partition(": ") for line in _UNIT_TABLE.splitlines())
+    for name, factor in map(str.split, row.split(", "))
 }
+#: Other spellings of units, behind the right one.
+_SPELLING_TABLE = """\
+N·m: Nm N-m N.m mN·m 牛米; kN·m: kNm; N·mm: Nmm; kg·m²: kgm² kgm2 kgm^2; m²: m2; s²: s2; m³: m3; mm²: mm2
+mm³: mm3; m⁴: m4; mm⁴: mm4; s: sec second seconds 秒; min: minute minutes 分 分钟; h: hour hours
+m: meter metre meters metres 米; mm: millimeter millimetre millimeters millimetres 毫米; in: inch inches "
+ft: feet foot; deg: degree degrees grad 度; rad: radian radians rads 弧度; N: newton newtons 牛 牛顿
+kg: kilogram kilograms kgs 千克 公斤; g: gram; t: tonne ton 吨; rev/s: rps; rev: r turn turns 转; %: percent ％
+rpm: U/min u/min 转/分 转/分钟; lbf/in²: psi; lbf·s²/ft: slug slugs; lbf·s²/in: blob blobs; kgf: kp 公斤力
+lb: lbs; MPa: Mpa 兆帕; Hz: hz; cm: 厘米; kN: 千牛; kW: 千瓦
+"""
 SPELLINGS: Mapping[str, str] = {
-    "Nm": "N·m",
-    "N-m": "N·m",
-    "N.m": "N·m",
-    "mN·m": "N·m",
-    "kNm": "kN·m",
-    "Nmm": "N·mm",
-    "kgm²": "kg·m²",
-    "kgm2": "kg·m²",
-    "kgm^2": "kg·m²",
-    "m2": "m²",
-    "s2": "s²",
-    "m3": "m³",
-    "mm2": "mm²",
-    "mm3": "mm³",
-    "m4": "m⁴",
-    "mm4": "mm⁴",
-    "sec": "s",
-    "second": "s",
-    "seconds": "s",
-    "minute": "min",
-    "minutes": "min",
-    "hour": "h",
-    "hours": "h",
-    "meter": "m",
-    "metre": "m",
-    "meters": "m",
-    "metres": "m",
-    "millimeter": "mm",
-    "millimetre": "mm",
-    "millimeters": "mm",
-    "millimetres": "mm",
-    "inch": "in",
-    "inches": "in",
-    "feet": "ft",
-    "foot": "ft",
-    "degree": "deg",
-    "degrees": "deg",
-    "grad": "deg",
-    "radian": "rad",
-    "radians": "rad",
-    "rads": "rad",
-    "newton": "N",
-    "newtons": "N",
-    "kilogram": "kg",
-    "kilograms": "kg",
-    "kgs": "kg",
-    "gram": "g",
-    "tonne": "t",
-    "ton": "t",
-    "rps": "rev/s",
-    "r": "rev",
-    "percent": "%",
-    "％": "%",
-    "U/min": "rpm",
-    "u/min": "rpm",
-    "turn": "rev",
-    "turns": "rev",
-    "psi": "lbf/in²",
-    "slug": "lbf·s²/ft",
-    "slugs": "lbf·s²/ft",
-    "blob": "lbf·s²/in",
-    "blobs": "lbf·s²/in",
-    "kp": "kgf",
-    "lbs": "lb",
-    "Mpa": "MPa",
-    "hz": "Hz",
-    '"': "in",
-    "毫米": "mm",
-    "厘米": "cm",
-    "米": "m",
-    "度": "deg",
-    "弧度": "rad",
-    "转": "rev",
-    "秒": "s",
-    "分": "min",
-    "分钟": "min",
-    "千克": "kg",
-    "公斤": "kg",
-    "吨": "t",
-    "牛": "N",
-    "牛顿": "N",
-    "千牛": "kN",
-    "公斤力": "kgf",
-    "牛米": "N·m",
-    "兆帕": "MPa",
-    "千瓦": "kW",
-    "转/分": "rpm",
-    "转/分钟": "rpm",
+    spelling: unit
+    for unit, _unused, row in (
+        each.partition(": ") for line in _SPELLING_TABLE.splitlines() for each in line.split("; ")
+    )
+    for spelling in row.split()
 }
 
 _SPACES = re.compile(r"[\s\u00a0\u2009\u202f\ufeff]+")
