@@ -123,7 +123,7 @@ class Number:
     """One value of a design number as a formula of summaries over the cycle, for one machine and for many designs.
 
     ``parts``: summaries, or outputs in words with a kind of summary, ``"reaction O5 on jaw max"`` (see
-    ``cycle.summary.KINDS``), from which ``summaries`` are read; ``formula``: the value from these, with ``+ - * /``
+    ``cycle.summaries.KINDS``), from which ``summaries`` are read; ``formula``: the value from these, with ``+ - * /``
     and the functions of ``formula.trace`` alone, so that it serves numbers and traced values; ``at``: where it is,
     from the summaries as extremes. ``dimension``: that of the metric, or of the summary, where left out.
     ``passed_over``: outputs of the machine that come before and have no such number, as they reverse nowhere; without

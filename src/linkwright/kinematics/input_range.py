@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -27,7 +27,7 @@ from linkwright.kinematics.solve import MotionRun
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
-from linkwright.words import Message, _, pgettext
+from linkwright.words import _, pgettext
 
 #: Step of the search: of a turning driver in rad, of a sliding one as share of the mechanism's size; how far a
 #: sliding one is tracked, in sizes.
@@ -143,26 +143,6 @@ def input_range(mechanism: Mechanism, driver: str | None = None) -> InputRange:
     high = search.end(1.0)
     low = search.end(-1.0) if high is not None or not search.rotary else None
     return InputRange(name, mechanism.drivers[name].link, search.rotary, low, high)
-
-
-def range_sentence(mechanism: Mechanism, links: Sequence[str] = ()) -> str:
-    """A driver's range as a sentence for a refusal; empty where there is none to tell. Never raises.
-
-    Of several drivers it is that of the first whose range the group of ``links`` ends, the others at their start.
-    """
-    for driver in mechanism.drivers:
-        try:
-            found = input_range(mechanism, driver)
-        except (LinkwrightError, ArithmeticError, ValueError):
-            continue
-        if len(mechanism.drivers) == 1:
-            return found.explain()
-        groups = [end.group for end in (found.low, found.high) if end is not None]
-        if any(isinstance(each, Message) and each.values.get("links") == tuple(links) for each in groups):
-            return _(
-                "with the other drivers at their start {reason}", code="range.others_still", reason=found.explain()
-            )
-    return ""
 
 
 @dataclass(frozen=True)

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from linkwright.kinematics.input_range import range_sentence
+from linkwright.errors import LinkwrightError
+from linkwright.kinematics.input_range import input_range
 from linkwright.kinematics.motion import Motion, Outcome, PositionError
 from linkwright.kinematics.reach_messages import input_at, way_stopped
-from linkwright.words import _
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.words import Message, _
 
 _CHANGE = _(
     "change the dimensions, the assembly or the range of the input (cycle: {{from: …, "
@@ -50,3 +54,23 @@ def refusal(motion: Motion) -> PositionError:
         else _("{name!r} cannot be solved at {where}: {sentence}; {advice}", code="motion.refused")
     ).format(name=motion.mechanism.name, where=where, sentence=outcome, reasons=reasons, advice=_CHANGE)
     return PositionError(message, tuple(int(i) for i in failed), outcome)
+
+
+def range_sentence(mechanism: Mechanism, links: Sequence[str] = ()) -> str:
+    """A driver's range as a sentence for a refusal; empty where there is none to tell. Never raises.
+
+    Of several drivers it is that of the first whose range the group of ``links`` ends, the others at their start.
+    """
+    for driver in mechanism.drivers:
+        try:
+            found = input_range(mechanism, driver)
+        except (LinkwrightError, ArithmeticError, ValueError):
+            continue
+        if len(mechanism.drivers) == 1:
+            return found.explain()
+        groups = [end.group for end in (found.low, found.high) if end is not None]
+        if any(isinstance(each, Message) and each.values.get("links") == tuple(links) for each in groups):
+            return _(
+                "with the other drivers at their start {reason}", code="range.others_still", reason=found.explain()
+            )
+    return ""

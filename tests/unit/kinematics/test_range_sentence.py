@@ -3,7 +3,7 @@
 from tests.invariants.fourbars import fourbar
 
 import linkwright as lw
-from linkwright.kinematics.input_range import range_sentence
+from linkwright.kinematics.refusal import range_sentence
 
 
 def test_range_sentence_never_raises() -> None:
