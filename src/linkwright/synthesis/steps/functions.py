@@ -17,7 +17,7 @@ from linkwright.equations.terms import TWO, Term, cosine, root, sine, symbol
 from linkwright.synthesis.function_generation.exact import Freudenstein
 from linkwright.synthesis.function_generation.fit import FunctionDerivation
 from linkwright.synthesis.names import TYPE_NAMES
-from linkwright.synthesis.steps.closed_forms import rounded
+from linkwright.synthesis.steps.requirements import rounded
 from linkwright.synthesis.steps.writing import (
     Writer,
     coordinates,

@@ -15,11 +15,11 @@ from linkwright.words import _, pgettext
 
 #: Writers of steps by the name of the derivation's class, each in a module of this package.
 WRITERS: Mapping[str, str] = {
-    "SliderCrankDerivation": "closed_forms.slider_crank",
-    "QuickReturnDerivation": "closed_forms.quick_return",
-    "ToggleDerivation": "closed_forms.toggle",
-    "CrankRockerDerivation": "limit_positions.crank_rocker",
-    "DragLinkDerivation": "limit_positions.drag_link",
+    "SliderCrankDerivation": "requirements.slider_crank",
+    "QuickReturnDerivation": "requirements.quick_return",
+    "ToggleDerivation": "requirements.toggle",
+    "CrankRockerDerivation": "requirements.crank_rocker",
+    "DragLinkDerivation": "requirements.drag_link",
     "FunctionDerivation": "functions.function",
     "MotionDerivation": "motions.motion",
     "PathDerivation": "paths.path",
