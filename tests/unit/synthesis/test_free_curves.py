@@ -15,9 +15,9 @@ from linkwright.formula import machine_code
 from linkwright.synthesis.free_curve import search
 from linkwright.synthesis.free_curve.atlas import STEP, Atlas, M, Matches, _draws, parts, places
 from linkwright.synthesis.free_curve.atlas_kernels import TURNS
-from linkwright.synthesis.free_curve.kernels import BLOCK, GUIDE, PIVOT, POINT, SLIDER
 from linkwright.synthesis.free_curve.linkages import Placed, drawing, linkage_of
 from linkwright.synthesis.free_curve.local_search import DAMPING
+from linkwright.synthesis.free_curve.placing import BLOCK, GUIDE, PIVOT, POINT, SLIDER
 from linkwright.synthesis.free_curve.search import Search, polished
 from linkwright.synthesis.free_curve.target import (
     FINE,

@@ -10,8 +10,16 @@ from __future__ import annotations
 from math import cos, exp, log, sin, sqrt
 
 from linkwright.formula.kernel import Reals, Wholes, load, maximum, minimum, root, spread, store, total
-from linkwright.synthesis.free_curve.kernels import BLOCK, DYAD, POINT, TURN, place_dyad, place_point
-from linkwright.synthesis.free_curve.sliding import place_block, place_slider
+from linkwright.synthesis.free_curve.placing import (
+    BLOCK,
+    DYAD,
+    POINT,
+    TURN,
+    place_block,
+    place_dyad,
+    place_point,
+    place_slider,
+)
 
 
 def spans(N: int, px: Reals, py: Reals, qx: Reals, qy: Reals, out: Reals) -> None:

@@ -14,8 +14,9 @@ from math import cos, log, sin, sqrt
 
 from linkwright.formula.kernel import Reals, Wholes, load, store
 from linkwright.synthesis.free_curve.atlas_kernels import spans
-from linkwright.synthesis.free_curve.distances import WIDE, target_to_curve
-from linkwright.synthesis.free_curve.kernels import (
+from linkwright.synthesis.free_curve.deviation import WIDE, target_to_curve
+from linkwright.synthesis.free_curve.local_search import directions, dot, lay, slopes
+from linkwright.synthesis.free_curve.placing import (
     BLOCK,
     DYAD,
     GUIDE,
@@ -27,7 +28,6 @@ from linkwright.synthesis.free_curve.kernels import (
     place_dyad,
     place_point,
 )
-from linkwright.synthesis.free_curve.local_search import directions, dot, lay, slopes
 
 #: Smoothing ε² of the distances; share of the demanded sin² of a transmission angle.
 SOFT, SLACK = 4e-4, 0.7

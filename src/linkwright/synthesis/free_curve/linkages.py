@@ -10,7 +10,7 @@ from string import ascii_uppercase
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
-from linkwright.synthesis.free_curve.kernels import BLOCK, GUIDE, PIVOT, POINT, SLIDER
+from linkwright.synthesis.free_curve.placing import BLOCK, GUIDE, PIVOT, POINT, SLIDER
 from linkwright.synthesis.free_curve.target import LINE, Target, columns, even_points
 from linkwright.synthesis.free_curve.topology import Design, Node, node_paths, rods_of
 from linkwright.synthesis.linkage import Guide, Linkage

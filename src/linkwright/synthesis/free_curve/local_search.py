@@ -10,16 +10,17 @@ from __future__ import annotations
 from math import fabs
 
 from linkwright.formula.kernel import Reals, Wholes, load, mark_of, root, spread, store, total
-from linkwright.synthesis.free_curve.distances import (
+from linkwright.synthesis.free_curve.deviation import (
     WIDE,
     align,
     curve_to_target,
+    deviation,
     middle,
     one_after,
     target_to_curve,
     weigh,
 )
-from linkwright.synthesis.free_curve.kernels import FAR, MIN_SINE, TURN, deviation, place
+from linkwright.synthesis.free_curve.placing import FAR, MIN_SINE, TURN, place
 
 #: Step of differences; share of the curvature added to it; steps after which a descent takes it anew.
 STEP, DAMPING, FRESH = 1e-5, 0.003, 30

@@ -29,8 +29,8 @@ from linkwright.designs.checkpoints import checkpointed, current_checkpoints, id
 from linkwright.designs.cluster import current, hands, in_turn
 from linkwright.formula.threads import chunks, cores
 from linkwright.synthesis.free_curve.atlas import NEAREST, Laid, atlas
-from linkwright.synthesis.free_curve.kernels import FAR
 from linkwright.synthesis.free_curve.linkages import Placed
+from linkwright.synthesis.free_curve.placing import FAR
 from linkwright.synthesis.free_curve.target import COARSE, FINE, MIDDLE, Target
 from linkwright.synthesis.free_curve.topology import Design, Draw, shaken, with_dyad, with_joint
 

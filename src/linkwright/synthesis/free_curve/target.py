@@ -14,7 +14,7 @@ import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.synthesis.free_curve.dyad_gain import NUMBERS, ROWS
-from linkwright.synthesis.free_curve.kernels import FAR
+from linkwright.synthesis.free_curve.placing import FAR
 from linkwright.synthesis.free_curve.topology import Design, kernels, node_paths
 from linkwright.synthesis.names import FREE_CURVE_FILE, FREE_CURVE_NO_PATH
 from linkwright.synthesis.result import SynthesisError

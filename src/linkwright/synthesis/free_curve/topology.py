@@ -1,6 +1,6 @@
 """A linkage as a list of nodes: its structure, its positions, random structures, and steps from one to another.
 
-Each node has a kind, two earlier nodes and a branch; see ``kernels.py``. Bars = 2 + 2 dyads; joints counts all nodes:
+Each node has a kind, two earlier nodes and a branch; see ``placing.py``. Bars = 2 + 2 dyads; joints counts all nodes:
 pivots, pins, slides, points of links and the drawing point.
 """
 
@@ -16,22 +16,10 @@ import numpy as np
 from linkwright.core.arrays import Complexes, Floats, Integers
 from linkwright.formula.kernel import Kernels
 from linkwright.synthesis.free_curve.atlas_kernels import LIKENESS, SAMPLING
-from linkwright.synthesis.free_curve.distances import DISTANCES
+from linkwright.synthesis.free_curve.deviation import DEVIATION, DISTANCES
 from linkwright.synthesis.free_curve.dyad_gain import PROMISES
-from linkwright.synthesis.free_curve.kernels import (
-    BLOCK,
-    DEVIATION,
-    DYAD,
-    FAR,
-    GUIDE,
-    PIVOT,
-    PLACING,
-    POINT,
-    SLIDER,
-    place,
-)
 from linkwright.synthesis.free_curve.local_search import DESCENT
-from linkwright.synthesis.free_curve.sliding import SLIDING
+from linkwright.synthesis.free_curve.placing import BLOCK, DYAD, FAR, GUIDE, PIVOT, PLACING, POINT, SLIDER
 
 Node = tuple[int, int, int, int]
 Draw = np.random.Generator
@@ -82,7 +70,7 @@ class Design:
 @cache
 def kernels() -> Kernels:
     """The compiled functions."""
-    return Kernels([*PLACING, *SLIDING, place, *DISTANCES, *DEVIATION, *DESCENT, *SAMPLING, *PROMISES, *LIKENESS])
+    return Kernels([*PLACING, *DISTANCES, *DEVIATION, *DESCENT, *SAMPLING, *PROMISES, *LIKENESS])
 
 
 def flat(rows: list[Node]) -> Integers:

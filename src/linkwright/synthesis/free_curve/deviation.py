@@ -1,13 +1,7 @@
-"""How far a linkage's curve lies from a wanted one, with its exact gradient, and the descent along it (kernels).
+"""How far a linkage's curve lies from a wanted one, with its exact gradient (kernels).
 
-A linkage is a list of nodes, four integers each: kind, two earlier nodes i and j, branch. Node 0 is the crank's
-pivot in the origin, node 1 its pin at distance 1; every further node has two numbers of x: PIVOT (its place), DYAD
-(logarithms of its lengths to i and j, on the side ``branch``), POINT (complex w: Pi + w (Pj - Pi), a point of a
-link), SLIDER (logarithm of its distance from i, direction of the guide through j, which is a GUIDE: like a pivot, but
-no pin), BLOCK (logarithm of its distance from i along the rod that slides through the block at j, distance of that
-line from i). The last node draws. Every node is one joint: of a SLIDER the GUIDE represents the slide, of a BLOCK the
-node itself. After the nodes x holds the turn of the picture, the first crank angle and the range of the crank (the
-last two for open curves only).
+Nearest points are sought on every segment. Those next to the nearest corner, or the corner of a table's cell, are not
+always the nearest: where strokes meet or cross, distances would jump, and descents end at jumps.
 
 Objective: mean nearest distance from curve to target plus that from target to curve, each √(d² + ε²), after the
 curve has been laid on the target by its centroid and rms radius (weighted by arc length), plus κ times the mean over
@@ -19,109 +13,178 @@ adjoint needs two cross products over u × v.
 
 from __future__ import annotations
 
-from math import cos, exp, sin
+from math import cos, exp, sin, sqrt
 
-from linkwright.formula.kernel import Reals, Wholes, load, maximum, minimum, root, smallest, spread, store, total
-from linkwright.synthesis.free_curve.distances import (
-    WIDE,
-    align,
-    curve_to_target,
-    middle,
-    pulled,
-    target_to_curve,
-    weigh,
+from linkwright.formula.kernel import (
+    Reals,
+    Wholes,
+    load,
+    mark_of,
+    marked,
+    maximum,
+    minimum,
+    root,
+    spread,
+    store,
+    total,
 )
-from linkwright.synthesis.free_curve.sliding import block_back, place_block, place_slider, slider_back
+from linkwright.synthesis.free_curve.placing import (
+    BLOCK,
+    DYAD,
+    FAR,
+    GUIDE,
+    MIN_SINE,
+    POINT,
+    SLIDER,
+    TURN,
+    block_back,
+    place,
+    slider_back,
+)
 
-PIVOT, GUIDE, POINT, DYAD, SLIDER, BLOCK = 0, 1, 2, 3, 4, 5
-TURN, FAR = 6.283185307179586, 1e9
-#: Minimum range of the crank on an open curve, rad.
-MIN_SINE = 0.3
-
-
-def turn_crank(begin: int, end: int, first: float, step: float, x: Reals, y: Reals) -> None:
-    """Unit vectors at even angles, by rotation."""
-    c, s, cs, sn = cos(first), sin(first), cos(step), sin(step)
-    for t in range(begin, end):
-        x[t] = c
-        y[t] = s
-        onward = c * cs - s * sn
-        s = c * sn + s * cs
-        c = onward
-
-
-def place_crank(n: int, N: int, first: float, span: float, closed: int, x: Reals, y: Reals) -> None:
-    """Pin of the crank: n positions over the drawn range, N - n over the rest of the turn."""
-    step = span / n if closed == 1 else span / (n - 1)
-    turn_crank(0, n, first, step, x, y)
-    if n < N:
-        step = (TURN - span) / (N - n + 1)
-        turn_crank(n, N, first + span + step, step, x, y)
+#: Most positions of one curve.
+WIDE = 512
 
 
-def place_dyad(
-    N: int, a: float, b: float, side: float, px: Reals, py: Reals, qx: Reals, qy: Reals, x: Reals, y: Reals
+def weigh(x: Reals, y: Reals, n: int, closed: int, steps: Reals, w: Reals) -> float:
+    """Lengths of the curve's steps and the shares of its length that belong to its points; gives its length."""
+    for t in range(0, n, 8):
+        dx = load(x, t + 1) - load(x, t)
+        dy = load(y, t + 1) - load(y, t)
+        store(steps, t, root(dx * dx + dy * dy) + 1e-12)
+    ex, ey = x[0] - x[n - 1], y[0] - y[n - 1]
+    steps[n - 1] = closed * (sqrt(ex * ex + ey * ey) + 1e-12)
+    sum_ = spread(0.0)
+    for t in range(0, n, 8):
+        sum_ += load(steps, t)
+    length = total(sum_)
+    half = 0.5 / length
+    for t in range(0, n, 8):
+        store(w, t, (load(steps, t - 1) + load(steps, t)) * half)
+    w[0] = (steps[n - 1] + steps[0]) * half
+    return length
+
+
+def middle(x: Reals, y: Reals, w: Reals, n: int, out: Reals) -> None:
+    """Centroid and rms radius: out[0:3]."""
+    sx, sy, square = spread(0.0), spread(0.0), spread(0.0)
+    for t in range(0, n, 8):
+        sx += load(w, t) * load(x, t)
+        sy += load(w, t) * load(y, t)
+    cx, cy = total(sx), total(sy)
+    for t in range(0, n, 8):
+        ux = load(x, t) - cx
+        uy = load(y, t) - cy
+        square += load(w, t) * (ux * ux + uy * uy)
+    out[0] = cx
+    out[1] = cy
+    out[2] = sqrt(total(square))
+
+
+def align(x: Reals, y: Reals, n: int, at: Reals, turn: float, yx: Reals, yy: Reals) -> None:
+    """The curve moved to the origin, made the target's size and turned."""
+    kx, ky = cos(turn) / at[2], sin(turn) / at[2]
+    for t in range(0, n, 8):
+        dx = load(x, t) - at[0]
+        dy = load(y, t) - at[1]
+        store(yx, t, kx * dx - ky * dy)
+        store(yy, t, kx * dy + ky * dx)
+
+
+def one_after(k: int, count: int, closed: int) -> int:
+    """The entry after k."""
+    if k < count - 1:
+        return k + 1
+    return 0 if closed == 1 else count - 1
+
+
+def nearest(px: Reals, py: Reals, count: int, x: Reals, y: Reals, n: int, closed: int, work: Reals) -> None:
+    """Number of the nearest of a curve's segments to each of ``count`` points p: block 12 of ``work``."""
+    ex, ey, inverse, last = work, work + WIDE, work + 2 * WIDE, n - 1
+    for t in range(0, n, 8):
+        dx, dy = load(x, t + 1) - load(x, t), load(y, t + 1) - load(y, t)
+        store(ex, t, dx)
+        store(ey, t, dy)
+        store(inverse, t, 1.0 / (dx * dx + dy * dy + 1e-30))
+    fx, fy = x[0] - x[last], y[0] - y[last]
+    ex[last] = fx
+    ey[last] = fy
+    inverse[last] = 1.0 / (fx * fx + fy * fy + 1e-30)
+    for j in range(0, count, 8):
+        qx, qy, low, mark = load(px, j), load(py, j), spread(1e18), spread(0.0)
+        for t in range(last + closed):
+            ux, uy = qx - x[t], qy - y[t]
+            s = minimum(maximum((ux * ex[t] + uy * ey[t]) * inverse[t], 0.0), 1.0)
+            vx, vy = ux - s * ex[t], uy - s * ey[t]
+            low = minimum(low, marked(vx * vx + vy * vy, mark))
+            mark += 1.0
+        store(work, 12 * WIDE + j, low)
+
+
+def feet(px: Reals, py: Reals, count: int, x: Reals, y: Reals, n: int, closed: int, soft: float, work: Reals) -> None:
+    """Nearest points on a curve of n points from ``count`` points p.
+
+    Blocks of ``work``: 6, 7: from there to p, over the smoothed distance; 8: that distance; 9, 10: shares of the two
+    ends of the segment; 12: its number.
+    """
+    nearest(px, py, count, x, y, n, closed, work)
+    for j in range(count):
+        a = mark_of(work[12 * WIDE + j])
+        b = one_after(a, n, closed)
+        work[j] = x[a]
+        work[WIDE + j] = y[a]
+        work[2 * WIDE + j] = x[b] - x[a]
+        work[3 * WIDE + j] = y[b] - y[a]
+    for j in range(0, count, 8):
+        ex, ey = load(work, 2 * WIDE + j), load(work, 3 * WIDE + j)
+        ux, uy = load(px, j) - load(work, j), load(py, j) - load(work, WIDE + j)
+        s = minimum(maximum((ux * ex + uy * ey) / (ex * ex + ey * ey + 1e-30), 0.0), 1.0)
+        vx, vy = ux - s * ex, uy - s * ey
+        d = root(vx * vx + vy * vy + soft)
+        store(work, 6 * WIDE + j, vx / d)
+        store(work, 7 * WIDE + j, vy / d)
+        store(work, 8 * WIDE + j, d)
+        store(work, 9 * WIDE + j, 1.0 - s)
+        store(work, 10 * WIDE + j, s)
+
+
+def curve_to_target(
+    x: Reals, y: Reals, w: Reals, n: int, closed: int, target: Reals, m: int, soft: float, work: Reals
 ) -> float:
-    """Common points of two circles; returns the minimum sin² of the transmission angle, negative where they miss."""
-    low = spread(1.0)
-    scale, difference = 1.0 / (4.0 * a * a * b * b), a * a - b * b
-    for t in range(0, N, 8):
-        ux = load(qx, t) - load(px, t)
-        uy = load(qy, t) - load(py, t)
-        square = ux * ux + uy * uy
-        along = square + difference
-        across = 4.0 * a * a * square - along * along
-        low = minimum(low, across * scale)
-        h = side * root(maximum(across, 0.0))
-        half = 0.5 / square
-        store(x, t, load(px, t) + (ux * along - uy * h) * half)
-        store(y, t, load(py, t) + (uy * along + ux * h) * half)
-    return smallest(low)
+    """Mean distance of the curve's points from the target; ``work`` as from :func:`feet`."""
+    feet(x, y, n, target, target + m, m, closed, soft, work)
+    mean = spread(0.0)
+    for t in range(0, n, 8):
+        mean += load(w, t) * load(work, 8 * WIDE + t)
+    return total(mean)
 
 
-def place_point(N: int, a: float, b: float, px: Reals, py: Reals, qx: Reals, qy: Reals, x: Reals, y: Reals) -> None:
-    """A point of a link."""
-    for t in range(0, N, 8):
-        ux = load(qx, t) - load(px, t)
-        uy = load(qy, t) - load(py, t)
-        store(x, t, load(px, t) + a * ux - b * uy)
-        store(y, t, load(py, t) + a * uy + b * ux)
+def target_to_curve(
+    x: Reals, y: Reals, n: int, closed: int, target: Reals, m: int, soft: float, work: Reals
+) -> float:
+    """Mean distance of the target's points from the curve; ``work`` as from :func:`feet`."""
+    feet(target, target + m, m, x, y, n, closed, soft, work)
+    mean = spread(0.0)
+    for j in range(0, m, 8):
+        mean += load(work, 8 * WIDE + j)
+    return total(mean) / m
 
 
-def place(nodes: Wholes, count: int, n: int, N: int, closed: int, x: Reals, X: Reals, Y: Reals) -> float:
-    """Positions (count, N) of all nodes; returns the minimum sin² of a transmission angle, negative where open."""
-    e = 2 * (count - 2)
-    first, span = x[e + 1], x[e + 2]
-    if closed == 1:
-        first = 0.0
-        span = TURN
-    for t in range(0, N, 8):
-        store(X, t, 0.0)
-        store(Y, t, 0.0)
-    place_crank(n, N, first, span, closed, X + N, Y + N)
-    low = 1.0
-    for k in range(2, count):
-        kind, a, b = nodes[4 * k], x[2 * k - 4], x[2 * k - 3]
-        i, j, own = nodes[4 * k + 1] * N, nodes[4 * k + 2] * N, k * N
-        if kind <= GUIDE:
-            for t in range(0, N, 8):
-                store(X + own, t, a)
-                store(Y + own, t, b)
-        if kind == POINT:
-            place_point(N, a, b, X + i, Y + i, X + j, Y + j, X + own, Y + own)
-        side = 1.0 * nodes[4 * k + 3]
-        if kind == DYAD:
-            found = place_dyad(N, exp(a), exp(b), side, X + i, Y + i, X + j, Y + j, X + own, Y + own)
-            low = min(low, found)
-        if kind == SLIDER:
-            found = place_slider(N, exp(a), b, side, X + i, Y + i, X + j, Y + j, X + own, Y + own)
-            low = min(low, found)
-        if kind == BLOCK:
-            found = place_block(N, exp(a), b, side, X + i, Y + i, X + j, Y + j, X + own, Y + own)
-            low = min(low, found)
-        if low < 1e-4:
-            return -1.0
-    return low
+def pulled(n: int, closed: int, m: int, work: Reals, gx: Reals, gy: Reals) -> None:
+    """Slopes of the mean that :func:`target_to_curve` gives, added by the curve's points."""
+    share = 1.0 / m
+    for j in range(m):
+        a = mark_of(work[12 * WIDE + j])
+        b = one_after(a, n, closed)
+        vx, vy = work[6 * WIDE + j] * share, work[7 * WIDE + j] * share
+        ra, rb = work[9 * WIDE + j], work[10 * WIDE + j]
+        gx[a] -= ra * vx
+        gy[a] -= ra * vy
+        gx[b] -= rb * vx
+        gy[b] -= rb * vy
+
+
+DISTANCES = (weigh, middle, align, one_after, nearest, feet, curve_to_target, target_to_curve, pulled)
 
 
 def too_large(
@@ -389,6 +452,5 @@ def deviation(
     return found
 
 
-#: Kernels by the order in which they call each other: those before :func:`place`, and those behind the distances.
-PLACING = (turn_crank, place_crank, place_dyad, place_point)
+#: Kernels by the order in which they call each other, behind the distances.
 DEVIATION = (too_large, lengths_back, align_back, dyad_back, point_back, nodes_back, range_back, deviation)
