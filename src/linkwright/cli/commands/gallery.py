@@ -41,9 +41,9 @@ def run(options: Options, session: Session) -> int:
     from linkwright.cli.files import atomic_write
 
     if options.action == "list":
-        show_list(options.name or "", session)
+        _show_list(options.name or "", session)
         return 0
-    name, text = file_text(options.name, options.action)
+    name, text = _file_text(options.name, options.action)
     if options.action == "show":
         if session.json:
             session.show_data({**title_and_purpose(name), "text": text})
@@ -63,7 +63,7 @@ WHICH = _("gallery {action}: which one? give a name; linkwright gallery list sho
 UNKNOWN = _('the gallery has no model "{name}"', code="gallery.unknown")
 
 
-def show_list(part: str, session: Session) -> None:
+def _show_list(part: str, session: Session) -> None:
     """Prints names and titles of the models, calculations and tasks whose names have a part."""
     from linkwright import gallery
 
@@ -84,7 +84,7 @@ def show_list(part: str, session: Session) -> None:
     session.show("", session.say(NEXT))
 
 
-def file_text(name: str | None, action: str) -> tuple[str, str]:
+def _file_text(name: str | None, action: str) -> tuple[str, str]:
     """Name and text of a file; raises UsageError with the nearest name."""
     from linkwright import gallery
 

@@ -24,34 +24,11 @@ NO_SCALE = _('--areas needs the scales of the diagram: --scale "5 N·m/mm, 1 deg
 MASS_AND_GYRATION = _(
     "--mass and --gyration belong together; give both, or --inertia", code="machine.mass_and_gyration"
 )
-
-
-def refuse_contradictions(options: Options) -> None:
-    """Raises UsageError for options that belong together, or exclude each other or a model file."""
-    diagram = next((f"--{each}" for each in ("areas", "torque") if getattr(options, each) is not None), None)
-    if options.file is None:
-        if diagram is None:
-            raise UsageError(NOTHING_GIVEN)
-        if options.output is not None:
-            raise UsageError(OUTPUT_NEEDS_FILE)
-    else:
-        of_curves = [f"--{name}" for name in CURVE_OPTIONS if getattr(options, name) is not None]
-        if diagram or of_curves:
-            raise UsageError(NOT_WITH_FILE.format(option=diagram or of_curves[0]))
-    if options.areas is not None and options.areas[1] is None:
-        raise UsageError(NO_SCALE)
-    if (options.mass is None) != (options.gyration is None):
-        raise UsageError(MASS_AND_GYRATION)
-
-
 FIELDS = file_keys(DriveOptions)
 #: Options that say the same, or of which one says nothing of the other's diagram.
 EXCLUSIVE = (
-    ("areas", "load"),
-    ("areas", "period"),
-    ("torque", "scale"),
-    ("inertia", "mass"),
-    ("inertia", "gyration"),
+    *(("areas", "load"), ("areas", "period"), ("torque", "scale")),
+    *(("inertia", "mass"), ("inertia", "gyration")),
 )
 
 
@@ -95,7 +72,7 @@ def run(options: Options, session: Session) -> int:
     from linkwright.cli.files import present, read_model
     from linkwright.machine.drive_design import of_diagram, of_mechanism
 
-    refuse_contradictions(options)
+    _refuse_contradictions(options)
     values = {name: getattr(options, name) for name in FIELDS}
     flywheel = DriveOptions(**{name: each for name, each in values.items() if each is not None})
     if options.file is None:
@@ -105,3 +82,21 @@ def run(options: Options, session: Session) -> int:
     mechanism, _findings = read_model(options.file, session)
     present(of_mechanism(mechanism, flywheel, options.steps), options, session)
     return 0
+
+
+def _refuse_contradictions(options: Options) -> None:
+    """Raises UsageError for options that belong together, or exclude each other or a model file."""
+    diagram = next((f"--{each}" for each in ("areas", "torque") if getattr(options, each) is not None), None)
+    if options.file is None:
+        if diagram is None:
+            raise UsageError(NOTHING_GIVEN)
+        if options.output is not None:
+            raise UsageError(OUTPUT_NEEDS_FILE)
+    else:
+        of_curves = [f"--{name}" for name in CURVE_OPTIONS if getattr(options, name) is not None]
+        if diagram or of_curves:
+            raise UsageError(NOT_WITH_FILE.format(option=diagram or of_curves[0]))
+    if options.areas is not None and options.areas[1] is None:
+        raise UsageError(NO_SCALE)
+    if (options.mass is None) != (options.gyration is None):
+        raise UsageError(MASS_AND_GYRATION)
