@@ -9,8 +9,8 @@ from linkwright.core.table import Table, Tabular
 from linkwright.elements import Connection, Group
 from linkwright.errors import speaker
 from linkwright.joints.base import JOINTS, PAIRS
+from linkwright.topology.constraints import GearTrain, written
 from linkwright.topology.mobility import lower_pair_counts
-from linkwright.topology.trains import GearTrain, written
 from linkwright.words import Translate, _, language_of, ngettext
 from linkwright.words.message import link_label
 

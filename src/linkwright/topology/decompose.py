@@ -17,9 +17,8 @@ from linkwright.elements import Connection, Group, TreeJoint
 from linkwright.joints.base import Joint
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.topology.analysis import Structure
-from linkwright.topology.constraints import FRAME, ConstraintGraph
+from linkwright.topology.constraints import FRAME, ConstraintGraph, gear_trains
 from linkwright.topology.mobility import counts, explain_excess, explain_free, grubler, islands
-from linkwright.topology.trains import gear_trains
 
 
 def structure(mechanism: Mechanism) -> Structure:

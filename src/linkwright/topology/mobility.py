@@ -7,8 +7,7 @@ from collections.abc import Mapping, Sequence
 from linkwright.errors import LinkwrightError
 from linkwright.joints.base import JOINTS
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.topology.constraints import DRIVER, FRAME, ConstraintGraph
-from linkwright.topology.trains import GearTrain, blocking_pairs, gear_trains
+from linkwright.topology.constraints import DRIVER, FRAME, ConstraintGraph, GearTrain, blocking_pairs, gear_trains
 from linkwright.words import Message, _
 from linkwright.words.message import together
 

@@ -25,7 +25,7 @@ from linkwright.reports.calculation import numbers_and_way
 from linkwright.reports.document import Block, Figure, Formula, Heading, Paragraph, literal, printed
 from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.section import section
-from linkwright.topology.trains import GearTrain, written
+from linkwright.topology.constraints import GearTrain, written
 from linkwright.words import _, pgettext
 from linkwright.words.message import link_label
 
