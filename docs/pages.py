@@ -25,7 +25,7 @@ import linkwright as lw
 from linkwright import gallery
 from linkwright.cli.commands.gallery import title_and_purpose
 from linkwright.errors import LinkwrightError
-from linkwright.fields.form import form
+from linkwright.fields.reading import form
 from linkwright.validation.validate import validate
 from linkwright.words import Message
 from linkwright.words.message import in_language

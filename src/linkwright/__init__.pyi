@@ -5,8 +5,8 @@ from . import machine as machine
 from . import parts as parts
 from . import topology as topology
 from . import units as units
+from .analysis.evaluate import MetricsTable as MetricsTable
 from .analysis.evaluate import metrics as metrics
-from .analysis.table import MetricsTable as MetricsTable
 from .cams.cam import Cam as Cam
 from .cams.compensating_cam import CompensatingCam as CompensatingCam
 from .cams.compensating_cam import compensating_cam as compensating_cam

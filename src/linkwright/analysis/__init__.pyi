@@ -5,9 +5,9 @@ from .base import MetricValue as MetricValue
 from .base import Remark as Remark
 from .coupler_curve import CouplerCurve as CouplerCurve
 from .coupler_curve import coupler_curve as coupler_curve
+from .evaluate import MetricsTable as MetricsTable
 from .evaluate import metrics as metrics
 from .grashof import FourBar as FourBar
 from .grashof import four_bars as four_bars
 from .instant_centres import centrode as centrode
 from .instant_centres import instant_centre as instant_centre
-from .table import MetricsTable as MetricsTable

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from linkwright.analysis.table import MetricsTable
+from linkwright.analysis.evaluate import MetricsTable
 from linkwright.core.arguments import STEPS, require
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import KINDS, NAMED

@@ -1,12 +1,18 @@
-"""What fields and elements see of the reader of a file: values, places of findings, and the names in the model."""
+"""What fields and elements see of the reader of a file: values, places of findings, names in the model.
+
+At the end: descriptions of what a key of a model file may hold, from its JSON Schema.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeVar
 
+from linkwright import units
+from linkwright.words import _
 from linkwright.words.message import Message
 
 if TYPE_CHECKING:
@@ -16,6 +22,7 @@ if TYPE_CHECKING:
     from linkwright.fields.nodes import Mapping as MappingNode
     from linkwright.fields.nodes import Node
     from linkwright.units import Dimension
+
 
 K = TypeVar("K", bound="Kind")
 
@@ -171,3 +178,61 @@ class Reader(Protocol):
     def output(self, node: Node, place: Place, text: str) -> Output | None: ...
     def over(self, node: MappingNode, place: Place) -> tuple[Literal["input", "time"] | Output | None, str]: ...
     def input_dimension(self) -> str: ...
+
+
+def missing_remedy(key: str, doc: str, shape: Mapping[str, Any]) -> Message:
+    """What to write for a missing key: its description, or in other languages its name and its form."""
+    own = form(shape)
+    return _("add {key_}: {form}", key_=key, form=partial(_described, doc, own) if doc else own)
+
+
+def _described(doc: str, own: Message, language: str) -> str:
+    return doc if language == "en" else own.translate(language)
+
+
+_NAMES = {
+    "link": _("a link's name"),
+    "joint": _("a joint's name"),
+    "point": _("a point's name"),
+    "link.point": _("a point as link.point"),
+    "output": _("an output"),
+}
+
+
+def form(shape: Mapping[str, Any]) -> Message:
+    """The words for a JSON Schema: ``a length, such as 60.5 mm``; ``list of 2: a link's name``."""
+    match shape:
+        case {"const": only} | {"enum": [only]}:
+            return _("{value}", value=only)
+        case {"enum": names}:
+            return _("one of {names}", names=tuple(names))
+        case {"x-dimension": dimension, "examples": [example, *_]}:
+            return _("{noun}, such as {example}", noun=units.NOUNS[dimension], example=example)
+        case {"x-dimension": dimension, "anyOf": [*_, {"type": "array"} as listed]}:
+            one = {"x-dimension": dimension, "examples": [units.example(dimension)]}
+            return _("one of these forms: {several}", several=[form(one), form(listed)])
+        case {"x-dimension": dimension, "x-variables": variables}:
+            return _("{noun}, an expression of {variables}", noun=units.NOUNS[dimension], variables=tuple(variables))
+        case {"x-reference": what}:
+            return _NAMES[what]
+        case {"anyOf": several}:
+            return _("one of these forms: {several}", several=[form(each) for each in several])
+        case {"items": item, "minItems": fewest, "maxItems": most} if fewest == most:
+            return _("a list of {count}: {item}", count=fewest, item=form(item))
+        case {"items": item}:
+            return _("a list: {item}", item=form(item))
+        case {"additionalProperties": Mapping() as item}:
+            return _("a mapping by name: {item}", item=form(item))
+        case {"properties": Mapping() as inner}:
+            return _("a mapping with keys of {names}", names=tuple(inner))
+        case {"type": "boolean"}:
+            return _("true or false")
+        case {"type": "number"}:
+            return _("a number")
+        case {"type": "integer"}:
+            return _("an integer")
+        case {"type": ["string", "number"]}:
+            return _("a number or a quantity")
+        case {"type": "string"}:
+            return _("a text")
+    return _("a value")

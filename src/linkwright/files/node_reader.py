@@ -10,10 +10,9 @@ from typing import Any, cast
 
 from linkwright.errors import Finding, Severity
 from linkwright.fields.base import Field, Text
-from linkwright.fields.form import missing_remedy
 from linkwright.fields.nodes import Entry, Node, Scalar, Sequence, noun
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.reading import K, Place, Reader, Sayings
+from linkwright.fields.reading import K, Place, Reader, Sayings, missing_remedy
 from linkwright.files.syntax import wide_remedy
 from linkwright.registry import LISTINGS, PROBABLE, listed, nearest
 from linkwright.units import decimal_comma

@@ -28,7 +28,7 @@ from linkwright.words import Translate, _
 from linkwright.words.message import in_language, numbered_links
 
 if TYPE_CHECKING:
-    from linkwright.analysis.table import MetricsTable
+    from linkwright.analysis.evaluate import MetricsTable
     from linkwright.machine.running import SteadyRunning
     from linkwright.pictures.diagram import Diagram
     from linkwright.worked_solutions.solution import Worked

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from linkwright.analysis.base import METRICS, MetricValue
-from linkwright.analysis.table import MetricsTable
+from linkwright.analysis.evaluate import MetricsTable
 from linkwright.core.arrays import Floats
 from linkwright.designs.compare import Comparison, Overlay
 from linkwright.designs.criteria import criterion

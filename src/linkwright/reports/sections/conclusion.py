@@ -14,7 +14,7 @@ import numpy as np
 
 from linkwright.analysis.analysis import Analysis
 from linkwright.analysis.base import METRICS, MetricValue
-from linkwright.analysis.table import MetricsTable
+from linkwright.analysis.evaluate import MetricsTable
 from linkwright.core.outputs import Output
 from linkwright.core.quantity import shown
 from linkwright.cycle.summaries import Summary

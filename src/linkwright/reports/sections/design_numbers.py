@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from linkwright.analysis.base import CELLS, MetricValue
-from linkwright.analysis.table import cells_of_values
+from linkwright.analysis.evaluate import cells_of_values
 from linkwright.core.quantity import number
 from linkwright.core.table import Table
 from linkwright.designs.evaluation import ranking, sentences
