@@ -1,1 +1,1 @@
-"""File formats: pictures, data, workbooks, and a module for each program that reads models."""
+"""File formats, one module each."""
