@@ -107,7 +107,7 @@ form = DYADS._elements.pop("three_guides")
 # of other names, so that no program of the closed form that is kept is taken
 followed = lw.loads(TRIAD.replace("DRAWN", "drawing: {" + places + "}").replace("slot", "arm"))
 other = lw.solve_forces(lw.solve_motion(followed, steps=24))
-assert other.motion.followed is not None
+assert other.motion.tracked is not None
 for name in ("plate", "a", "c"):
     for each in ("direction", "angular_velocity", "angular_acceleration"):
         one, two = (getattr(f.motion.link(name), each) for f in (forces, other))
