@@ -1,4 +1,4 @@
-"""Design numbers of one crusher, beside the hand-written NumPy cycle of its motion and forces."""
+"""Metrics of one crusher, beside the hand-written NumPy cycle of its motion and forces."""
 
 from __future__ import annotations
 

@@ -164,7 +164,7 @@ def objectives(size: Size) -> Section:
 
 
 def numbers(size: Size) -> Section:
-    """Design numbers of one machine."""
+    """Metrics of one machine."""
     from benchmarks import numbers as design_numbers
 
     work = design_numbers.NumbersWork(size.steps)
@@ -180,7 +180,7 @@ def numbers(size: Size) -> Section:
     ratio = rounds.ratio(design_numbers.EDITED, design_numbers.BY_NUMPY)
     goals.append(Goal("edited crusher with its load ÷ prepared by NumPy without, time", ratio, 2.5, False))
     note = f"largest difference of numbers of many designs from one alone {work.disagreement():.1e}"
-    return Section("Design numbers of the six-bar crusher with its load", header, rows, goals, [note])
+    return Section("Metrics of the six-bar crusher with its load", header, rows, goals, [note])
 
 
 def cycles(size: Size) -> Section:

@@ -1,4 +1,4 @@
-"""Design numbers of random loaded machines against the same numbers by brute force, on 20 000 positions of the cycle.
+"""Metrics of random loaded machines against the same numbers by brute force, on 20 000 positions of the cycle.
 
     python -m tests.brute_force --count 200 --workers 1 --seed 1
     python -m tests.brute_force --only 1000013 --seed 1

@@ -1,4 +1,4 @@
-"""Gradients of design numbers against fourth-order central differences, of machines of the gallery and random ones.
+"""Gradients of metrics against fourth-order central differences, of machines of the gallery and random ones.
 
     python -m tests.gradients --count 100 --seed 1
     python -m tests.gradients --only jaw_crusher_sixbar 1000013

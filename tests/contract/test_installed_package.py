@@ -1,4 +1,4 @@
-"""An installed package with joint kinds, a load, a driver law and a design number of its own: the how-to's, run."""
+"""An installed package with joint kinds, a load, a driver law and a metric of its own: the how-to's, run."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Every registered design number keeps the contract, on every gallery machine."""
+"""Every registered metric keeps the contract, on every gallery machine."""
 
 from math import isnan
 

@@ -1,4 +1,4 @@
-"""A design number, a load and a driver law of another package: in files, commands, pictures and sweeps."""
+"""A metric, a load and a driver law of another package: in files, commands, pictures and sweeps."""
 
 from __future__ import annotations
 

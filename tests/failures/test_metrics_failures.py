@@ -1,4 +1,4 @@
-"""What design numbers and machine dynamics refuse: each with its code and what it is about."""
+"""What metrics and machine dynamics refuse: each with its code and what it is about."""
 
 from math import degrees, inf, nan, pi
 

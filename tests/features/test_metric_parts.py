@@ -1,4 +1,4 @@
-"""Summaries that design numbers are made of: extremes, places and means of any output, against dense positions."""
+"""Summaries that metrics are made of: extremes, places and means of any output, against dense positions."""
 
 from __future__ import annotations
 

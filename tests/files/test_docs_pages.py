@@ -69,7 +69,7 @@ def test_a_page_in_one_language_is_there_in_the_other() -> None:
 
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_every_design_number_is_named_with_how_it_is_had(language: str) -> None:
-    """In the table of the page on design numbers; a star where it has to be asked for."""
+    """In the table of the page on metrics; a star where it has to be asked for."""
     rows = re.findall(r"`(\w+)`(\\\*)?", (DOCS / language / "theory/metrics.md").read_text("utf-8"))
     told = {name: bool(star) for name, star in rows if name in METRICS and (star or not METRICS[name].on_request)}
     assert told == {name: METRICS[name].on_request for name in METRICS}

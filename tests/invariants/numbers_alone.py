@@ -1,4 +1,4 @@
-"""Design numbers of one of many designs, which is solved by itself."""
+"""Metrics of one of many designs, which is solved by itself."""
 
 from collections.abc import Mapping, Sequence
 

@@ -1,4 +1,4 @@
-"""Design numbers of many machines with a cam: those of the cam by itself, and of each machine alone."""
+"""Metrics of many machines with a cam: those of the cam by itself, and of each machine alone."""
 
 import math
 from itertools import pairwise

@@ -69,7 +69,7 @@ def test_design_numbers_equal_single_designs(load: str) -> None:
 @pytest.mark.rotating
 @pytest.mark.parametrize("load", OTHER_WAY)
 def test_designs_driven_the_other_way_equal_single_ones(load: str) -> None:
-    """Sums over positions, and design numbers between them, of a crank that turns clockwise."""
+    """Sums over positions, and metrics between them, of a crank that turns clockwise."""
     mechanism = lw.loads(MODEL.replace("LOAD", OTHER_WAY[load]).replace("120 rpm", "-120 rpm"))
     lengths = np.array([0.7, 0.712])
     names = ["rms_input_torque", "peak_reaction"]

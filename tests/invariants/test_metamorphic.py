@@ -254,7 +254,7 @@ def test_a_planet_s_curve_has_one_length_whatever_the_steps(steps: int) -> None:
 
 @pytest.mark.parametrize("name", ["jaw_crusher_sixbar", "shaper_quick_return", "whitworth", "dyad_rpr"])
 def test_what_is_welded_to_the_frame_is_part_of_it(name: str) -> None:
-    """All design numbers are those of the machine without the bracket; the weld's own are more."""
+    """All metrics are those of the machine without the bracket; the weld's own are more."""
     before, after = (
         {(row.metric, row.subject): row.value for row in lw.metrics(lw.solve_forces(machine, steps=60))}
         for machine in (stored(name), on_a_bracket(name))

@@ -1,4 +1,4 @@
-"""Design numbers of many designs at once: those of each machine alone, and their derivatives those of differences."""
+"""Metrics of many designs at once: those of each machine alone, and their derivatives those of differences."""
 
 import numpy as np
 import pytest

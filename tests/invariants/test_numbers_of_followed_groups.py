@@ -1,4 +1,4 @@
-"""Design numbers of groups without closed form, all designs at once: an energy balance of loops closed here, each
+"""Metrics of groups without closed form, all designs at once: an energy balance of loops closed here, each
 machine alone, and differences."""
 
 from typing import Any

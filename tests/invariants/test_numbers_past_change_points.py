@@ -1,4 +1,4 @@
-"""Design numbers of motions through change points, in closed form and whatever the steps.
+"""Metrics of motions through change points, in closed form and whatever the steps.
 
 A parallelogram copies its crank: no angular acceleration, no torque; its coupler goes round a circle.
 """

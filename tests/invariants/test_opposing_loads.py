@@ -1,4 +1,4 @@
-"""Loads against a velocity: gradients of design numbers pass the jumps where it changes its sign, by differences of
+"""Loads against a velocity: gradients of metrics pass the jumps where it changes its sign, by differences of
 machines solved alone."""
 
 import numpy as np
@@ -66,7 +66,7 @@ METRICS = [each.split()[0] for each in NUMBERS]
 
 
 def differences(mechanism: lw.Mechanism, address: str) -> dict[str, float]:
-    """Central differences of fourth order of the design numbers of machines solved one by one."""
+    """Central differences of fourth order of the metrics of machines solved one by one."""
     value = mechanism.dimension(address)
     step = 1e-4 * value
     rows = []

@@ -15,7 +15,7 @@ def crank_rocker(swing: float, **demands: float) -> lw.Synthesis:
 
 
 def measured(candidate: lw.Candidate, metric: str) -> float:
-    """The last value of a design number: the output's."""
+    """The last value of a metric: the output's."""
     table = lw.metrics(lw.solve_motion(candidate.mechanism(), steps=720))
     return float(table[metric][-1].value)
 

@@ -1,4 +1,4 @@
-"""Design numbers against thousands of positions: values and places, of cranks turned either way, to and fro, through
+"""Metrics against thousands of positions: values and places, of cranks turned either way, to and fro, through
 part of a turn, and up to dead points.
 
 What a number means is written here once more, from positions, rates and forces alone.

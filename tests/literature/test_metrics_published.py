@@ -1,4 +1,4 @@
-"""Design numbers that are printed, or have a closed form."""
+"""Metrics that are printed, or have a closed form."""
 
 from dataclasses import replace
 from math import acos, asin, degrees, hypot, pi, sin, sqrt

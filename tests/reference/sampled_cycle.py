@@ -1,4 +1,4 @@
-"""Design numbers from many solved positions alone: each extreme between bounds, each mean with its slack.
+"""Metrics from many solved positions alone: each extreme between bounds, each mean with its slack.
 
 A smooth extreme is the top of the parabola through three samples; where a signal jumps or bends, its extreme
 is a sample or beyond it by what the smooth side changes within one step. The differences of neighbouring steps say

@@ -1,4 +1,4 @@
-"""Design numbers of a machine from its solved positions alone, each by its definition."""
+"""Metrics of a machine from its solved positions alone, each by its definition."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Living pages against the solver: rows, design numbers, the file that a page hands out."""
+"""Living pages against the solver: rows, metrics, the file that a page hands out."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from tests.ui.pages import STEPS, page_of
 import linkwright as lw
 
 CLOSE = 1e-12
-#: How near design numbers come.
+#: How near metrics come.
 NUMBERS = 2e-7
 #: Digits that numbers of a file keep, and those that lengths keep between coordinates of a drawing.
 WRITTEN, DRAWN = 4e-16, 2e-13
-#: Names of design numbers by the beginnings of a page's.
+#: Names of metrics by the beginnings of a page's.
 METRICS = {
     "range:angle:": "swing_angle",
     "range:s:": "stroke",

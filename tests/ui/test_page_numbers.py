@@ -1,4 +1,4 @@
-"""Design numbers of pages are those of ``metrics``: peaks between the positions, beside jumps, with friction."""
+"""Metrics of pages are those of ``metrics``: peaks between the positions, beside jumps, with friction."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def test_design_numbers_do_not_hang_on_the_positions_of_a_page(opened: Opened) -
 
 @pytest.mark.rotating
 def test_a_curve_goes_through_the_peak_between_its_positions(opened: Opened, tmp_path: Path) -> None:
-    """What is drawn beside the positions is the design number, which is larger than all of them."""
+    """What is drawn beside the positions is the metric, which is larger than all of them."""
     shown(opened, CASES["several turns"], tmp_path)
     largest = opened.run("s => s.model.numbers()['largest:effort:driver']")
     row = opened.run("s => [...s.model.row('effort:driver')]")

@@ -1,4 +1,4 @@
-// The page: machines side by side, each with its drawing, design numbers, dimensions and curves.
+// The page: machines side by side, each with its drawing, metrics, dimensions and curves.
 import { useComputed } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";

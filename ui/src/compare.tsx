@@ -1,4 +1,4 @@
-// Design numbers of several machines beside each other.
+// Metrics of several machines beside each other.
 import type { Figure } from "./data";
 import type { Page } from "./living";
 import type { Session } from "./session";

@@ -1,4 +1,4 @@
-// A machine of the page: its dimensions as they are now, its curves and design numbers, and what a change may do.
+// A machine of the page: its dimensions as they are now, its curves and metrics, and what a change may do.
 import { floats, type ModelData, type Signal } from "./data";
 import type { Call, Code } from "./engine";
 import { unwrap } from "./loads";
@@ -6,7 +6,7 @@ import { type Extreme, extreme, formed, isForce, number, roundingOf } from "./nu
 import { leastChange } from "./search";
 import { mixed, Solver, type Values, type Wall } from "./solver";
 
-/** What stays of a design for comparison: its dimensions, rows of curves and design numbers. */
+/** What stays of a design for comparison: its dimensions, rows of curves and metrics. */
 export interface Design {
   values: Values;
   rows: Record<string, Float64Array>;

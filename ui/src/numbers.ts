@@ -1,4 +1,4 @@
-// Design numbers of a machine over its cycle, between the positions as well.
+// Metrics of a machine over its cycle, between the positions as well.
 import type { Figure, Signal } from "./data";
 import { through } from "./drive";
 import type { Call } from "./engine";
@@ -10,7 +10,7 @@ import type { Solver } from "./solver";
 
 export const TURN = 2 * Math.PI;
 
-/** The value of a design number. */
+/** The value of a metric. */
 export function number(model: Model, figure: Figure): number {
   const row = model.row(figure.signal), { signal } = figure;
   if (row.some(Number.isNaN)) return NaN;

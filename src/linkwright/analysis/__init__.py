@@ -1,4 +1,4 @@
-"""Design numbers: one registered file per number."""
+"""Metrics: one registered file per number."""
 
 import lazy_loader
 

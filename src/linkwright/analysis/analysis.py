@@ -1,4 +1,4 @@
-"""A result together with what several design numbers share: outputs, limit positions, true extremes."""
+"""A result together with what several metrics share: outputs, limit positions, true extremes."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def finds(kind: type[Summary]) -> Callable[[Finder], Finder]:
 
 
 class Analysis:
-    """What design numbers are read from: a motion, its forces if they were solved, and what numbers share.
+    """What metrics are read from: a motion, its forces if they were solved, and what numbers share.
 
     Of a cycle in few positions it is the motion in more of them.
 

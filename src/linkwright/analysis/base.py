@@ -1,4 +1,4 @@
-"""What every design number supplies: what it is, whether it applies, its values."""
+"""What every metric supplies: what it is, whether it applies, its values."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from linkwright.words.message import in_language, in_words
 
 Better = Literal["higher", "lower"]
 #: Heads of what :meth:`MetricValue.cells` gives, and of remarks.
-CELLS = (_("design number"), _("of"), _("value"), _("unit"), _("at input"), _("limit"))
+CELLS = (_("metric"), _("of"), _("value"), _("unit"), _("at input"), _("limit"))
 REMARK = _("remark")
 #: A place (rad or m) smaller than this is rounding.
 NO_PLACE = 1e-9
@@ -46,7 +46,7 @@ class Remark:
 
 @dataclass(frozen=True)
 class MetricValue:
-    """One value of a design number.
+    """One value of a metric.
 
     ``subject``: the link, joint, point, group or loop; ``value``: SI; ``at``: the first driver's coordinate there
     (rad or m), None where the value belongs to the full cycle; ``place``: a point in frame axes, m, where there is
@@ -120,7 +120,7 @@ def _first(*parts: SummaryValue) -> float:
 
 @dataclass(frozen=True)
 class Number:
-    """One value of a design number as a formula of summaries over the cycle, for one machine and for many designs.
+    """One value of a metric as a formula of summaries over the cycle, for one machine and for many designs.
 
     ``parts``: summaries, or outputs in words with a kind of summary, ``"reaction O5 on jaw max"`` (see
     ``cycle.summaries.KINDS``), from which ``summaries`` are read; ``formula``: the value from these, with ``+ - * /``
@@ -156,7 +156,7 @@ class Number:
 
 
 class Metric(ABC):
-    """One design number of a mechanism, from ``numbers`` or, where it is no formula of summaries, from ``values``.
+    """One metric of a mechanism, from ``numbers`` or, where it is no formula of summaries, from ``values``.
 
     ``dimension``: name of its dimension (values may have their own, where a link gives an angle and a slider a
     length); ``better``: the direction in which designs improve, if there is one; ``limit``: the recommended value,

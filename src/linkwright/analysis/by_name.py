@@ -37,7 +37,7 @@ NO_TEXT = _('invalid output {value}; write a text such as "driver.effort rms"', 
 
 def wanted(outputs: Iterable[str | tuple[str, str]]) -> tuple[Summary, ...]:
     """Summaries from pairs (output, kind), or texts ``output kind``; an output alone means its min and max, the name
-    of a design number that number.
+    of a metric that number.
 
     Raises LinkwrightError for an unknown kind, and where nothing is asked.
     """
@@ -58,7 +58,7 @@ def is_summary(name: str) -> bool:
 
 
 def is_metric(name: str) -> bool:
-    """Whether a text means a registered design number, not a summary of the output of the same name."""
+    """Whether a text means a registered metric, not a summary of the output of the same name."""
     return name.partition(" ")[0] in METRICS and not is_summary(name)
 
 

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 def metrics(result: Result, names: Iterable[str] | str | None = None) -> MetricsTable:
-    """Design numbers of a motion, or of forces (which have those of the motion as well).
+    """Metrics of a motion, or of forces (which have those of the motion as well).
 
     Args:
         result: from ``solve_motion`` or ``solve_forces``, or its analysis.
@@ -86,9 +86,9 @@ def _countable(motion: Motion) -> None:
         turns = f"{motion.positions.turns:.6g}"
         raise RequestError(
             _(
-                "the cycle of {name!r} has {turns} turns, and design numbers are found over at most "
-                "{most}; leave turns or duration out (the cycle then lasts until all is back), or "
-                "give fewer: cycle: {{turns: {most}}}",
+                "the cycle of {name!r} has {turns} turns, and metrics are found over at most {most}; "
+                "leave turns or duration out (the cycle then lasts until all is back), or give fewer: "
+                "cycle: {{turns: {most}}}",
                 code="metrics.too_many_turns",
                 name=motion.mechanism.name,
                 turns=turns,
@@ -281,7 +281,7 @@ def _remarks(row: MetricValue | None, language: str) -> str:
 
 
 class MetricsTable(PlotMixin, Tabular, Sequence[MetricValue]):
-    """Values of design numbers, in rows.
+    """Values of metrics, in rows.
 
     ``table["stroke"]``: all values of one number; ``table["stroke", "guide"]``: the one of a subject;
     ``table.value("stroke")``: the governing value (the worst of its subjects where a direction is better, else the
@@ -379,7 +379,7 @@ class MetricsTable(PlotMixin, Tabular, Sequence[MetricValue]):
     def tables(self, language: str = "en") -> tuple[Table]:
         """The rows, limits and remarks where there are any, and the warnings."""
         if not self.rows:
-            return (Table(title=self.title, notes=["", _("none of the design numbers applies to this mechanism")]),)
+            return (Table(title=self.title, notes=["", _("none of the metrics applies to this mechanism")]),)
         head = (*CELLS, REMARK)
         rows = [[*texts, _remarks(row, language)] for texts, row in cells_of_values(self.rows, language)]
         shown_columns = [i for i in range(len(head)) if i < 5 or any(row[i] for row in rows)]

@@ -292,7 +292,7 @@ class StrokePartField(Field):
         reader.finding(
             node,
             place,
-            _('"{text}" is no part of a stroke'),
+            _('invalid part of a stroke "{text}"'),
             "range",
             _('give a share between 0 and 1, or a way such as "{example}"'),
             text=text,

@@ -20,7 +20,7 @@ from linkwright.words import _, pgettext
 if TYPE_CHECKING:
     from linkwright.synthesis.result import Synthesis
 
-BAD_DEMAND = _('"{text}" is no demand; write KEY=VALUE, such as stroke="40 mm"', code="synthesize.bad_demand")
+BAD_DEMAND = _('invalid demand "{text}"; write KEY=VALUE, such as stroke="40 mm"', code="synthesize.bad_demand")
 
 
 def task_of(name: str, demands: Sequence[str]) -> tuple[str, dict[str, Any]]:

@@ -290,7 +290,7 @@ def _node(reader: Reader, key: str, field: Field, words: str | list[str]) -> Nod
     for text in words.split(",") if isinstance(words, str) else words:
         name, sign, value = (each.strip() for each in text.partition("="))
         if not (sign and name and value) and text.strip():
-            message = _('"{text}" is no setting', text=text)
+            message = _('unknown setting "{text}"', text=text)
             reader.error(
                 None, key, message, _("write NAME=VALUE, such as crank.length=80..120mm or flywheel=2"), "syntax"
             )

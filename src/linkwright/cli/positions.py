@@ -118,7 +118,7 @@ def zone_of(text: str, across: str) -> tuple[float, float]:
     if not dots:
         raise UsageError(
             _(
-                '--zone: "{text}" is no zone; write where it begins and ends, such as "90..210 deg"',
+                '--zone: invalid zone "{text}"; write where it begins and ends, such as "90..210 deg"',
                 code="compensate.bad_zone",
                 text=text,
             )

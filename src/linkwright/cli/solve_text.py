@@ -272,7 +272,7 @@ def _ruled(text: str, span: int) -> str:
 def _extremes(solved: Solved, say: Translate, *, degrees: bool) -> list[str]:
     """The largest force in every joint and the range of every driver's effort.
 
-    Over the whole cycle these are found between the positions, as the design numbers are; of chosen positions, or of
+    Over the whole cycle these are found between the positions, as the metrics are; of chosen positions, or of
     a cycle that is not passed, they are those of the positions, and the title says so.
     """
     forces = solved.forces

@@ -285,7 +285,7 @@ def _number(text: str | None, line: int, name: str) -> float | None:
     if not math.isfinite(found):
         raise LinkwrightError(
             _(
-                'line {line}: {name}: "{text}" is no number; write one such as 12.5, or nothing',
+                'line {line}: {name}: invalid number "{text}"; write one such as 12.5, or nothing',
                 code="course.no_answer",
                 line=line,
                 name=name,
@@ -299,7 +299,9 @@ def _number(text: str | None, line: int, name: str) -> float | None:
 LARGEST = 1e300
 
 
-_NO_KEY = _("{path}: this is no answer key; give the key.json that the command variants wrote", code="course.no_key")
+_NO_KEY = _(
+    "{path}: this is not an answer key; give the key.json that the command variants wrote", code="course.no_key"
+)
 
 
 def read_key(key: Mapping[str, Any] | str | Path) -> Mapping[str, Any]:

@@ -36,7 +36,7 @@ class ShareOfAnswer(Value):
         if found is None or 0.0 < found <= 0.2:
             return found
         message = _(
-            '"{text}" is no tolerance; give a share up to 0.2, such as 0.01 or 1 %',
+            'invalid tolerance "{text}"; give a share up to 0.2, such as 0.01 or 1 %',
             code="course.bad_tolerance",
             text=flow(value),
         )
@@ -67,7 +67,7 @@ ROUNDED = 1e-9
 NOTHING = 1e-9
 
 
-_NO_RANGE = _('"{text}" is no range; give a share (8 %) or two values ([0.3 m, 0.35 m])', code="course.bad_range")
+_NO_RANGE = _('invalid range "{text}"; give a share (8 %) or two values ([0.3 m, 0.35 m])', code="course.bad_range")
 
 
 @dataclass(frozen=True)
@@ -186,7 +186,10 @@ class _Reading(SectionReading):
         names = {output.column: output for output in sheet.values}
         if not section:
             message = _(
-                '"{given}" is no list of results; {hint}', code="course.no_list", given="[]", hint=offered("", names)
+                'invalid list of results "{given}"; {hint}',
+                code="course.no_list",
+                given="[]",
+                hint=offered("", names),
             )
             self.note("ask", message, "no-list")
             return ()

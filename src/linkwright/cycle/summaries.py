@@ -259,7 +259,7 @@ _GROWING = frozenset({"min", "max", "range", "peak", "argmin", "argmax"})
 
 @dataclass(frozen=True)
 class Summary:
-    """One summary of one output over the cycle; without a ``kind`` a registered design number.
+    """One summary of one output over the cycle; without a ``kind`` a registered metric.
 
     ``kind``: ``min``, ``max``, ``mean``, ``rms``; ``range`` = max - min (swing, stroke); ``peak`` = largest
     absolute value; ``argmin``, ``argmax``: the first driver's coordinate (rad or m) of the extreme. ``of_cycle``:

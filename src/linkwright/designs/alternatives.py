@@ -59,7 +59,7 @@ class Alternative:
 
     @cached_property
     def analysis(self) -> Analysis:
-        """What its design numbers share."""
+        """What its metrics share."""
         return Analysis.of(self.forces)
 
     @cached_property

@@ -1,4 +1,4 @@
-"""Alternatives side by side: design numbers, a ranking with its reasons, curves, a written evaluation."""
+"""Alternatives side by side: metrics, a ranking with its reasons, curves, a written evaluation."""
 
 from __future__ import annotations
 
@@ -214,11 +214,11 @@ def compare(
     fluctuation: float = FLUCTUATION,
     steps: int = STEPS,
 ) -> Comparison:
-    """Compares alternative machines by the motion of an output that they share and by their design numbers.
+    """Compares alternative machines by the motion of an output that they share and by their metrics.
 
     Args:
         machines: two or more mechanisms, paths or gallery names.
-        metrics: registered design numbers, with a subject if wanted (``peak_reaction O5``); ``travel``,
+        metrics: registered metrics, with a subject if wanted (``peak_reaction O5``); ``travel``,
             ``output_velocity``, ``output_acceleration``, ``pivot_reaction`` (of the output's pivot), ``flywheel``;
             summaries of outputs (``driver.effort rms``). None: the usual ones that apply.
         weights: of metrics in the ranking, default 1; 0 leaves one out.

@@ -1,4 +1,4 @@
-"""Design numbers of sweeps: of many designs together as far as that is certain, of the others one by one."""
+"""Metrics of sweeps: of many designs together as far as that is certain, of the others one by one."""
 
 from __future__ import annotations
 

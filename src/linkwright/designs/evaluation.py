@@ -37,7 +37,7 @@ def tables(comparison: Comparison, language: str = "en") -> tuple[Table, ...]:
         values = zip(row.values, stars, strict=True)
         cells = ("—  " if v is None else Amount(v.value, v.dimension, 5, mark=mark) for v, mark in values)
         rows.append([row.criterion.label(language), *cells])
-    head = [_("design number"), *comparison.labels]
+    head = [_("metric"), *comparison.labels]
     title = _("Ranking (mean over the metrics of how near each comes to the best, 100 = best in all)")
     return (
         Table(head, rows, notes=[_("* best of the alternatives")]),

@@ -57,7 +57,7 @@ class Part(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class OverMetrics:
-    """Design numbers, and summaries of the cycle, with their weights."""
+    """Metrics, and summaries of the cycle, with their weights."""
 
     names: tuple[str, ...]
     cycle: MetricsOfDesigns
@@ -154,11 +154,11 @@ def objective(
 
     Args:
         mechanism: the design to start from; its assembly modes hold for all.
-        terms: design numbers (``"peak_reaction O5"``, ``"rms_input_torque"``, those of :func:`metrics`), summaries
+        terms: metrics (``"peak_reaction O5"``, ``"rms_input_torque"``, those of :func:`metrics`), summaries
             such as ``"driver.effort rms"`` (see :func:`sweep`; kinds min, max, mean, rms, range, peak), and
             :class:`PathError`; several with their weights in a mapping.
         vary: addresses of dimensions, or names of parameters.
-        steps: None for summaries of the cycle, exact between positions, as design numbers always are; a number for
+        steps: None for summaries of the cycle, exact between positions, as metrics always are; a number for
             those of so many positions. A path error has as many positions as points.
         at: inputs of the first driver, rad or m, instead of the cycle: summaries and path errors are of these.
         backend: ``numpy``, ``llvm`` (compiled once, in some tenths of a second), or ``auto``: that where llvmlite is.
@@ -241,8 +241,7 @@ def _refusal(mechanism: Mechanism, names: tuple[str, ...], missing: list[str]) -
         )
     if numbers_of_designs(mechanism, names, missing) is not None:
         return _(
-            "{names} of {name!r} is no number over the cycle that has a gradient, or does not "
-            "apply to it; choose another one",
+            "{names} of {name!r} has no gradient over the cycle, or does not apply to it; choose another one",
             code="study.objective_metric",
             names=tuple(missing),
             name=mechanism.name,
@@ -257,7 +256,7 @@ def _refusal(mechanism: Mechanism, names: tuple[str, ...], missing: list[str]) -
             return _(
                 "{name!r}: the load {load!r} has the sign of the rate of {output}, which changes it "
                 "{count} times in a turn, where gradients with groups without closed form take two "
-                "changes; for summaries use sensitivity with steps, for design numbers study"
+                "changes; for summaries use sensitivity with steps, for metrics study"
             ).format(name=mechanism.name, **values)
     return NO_GRADIENTS.format(name=mechanism.name)
 
@@ -286,7 +285,7 @@ def _of_positions(
     if not positions.count:
         raise RequestError(
             _(
-                "no positions are given; give an input or a time, or leave at and times out for the whole cycle",
+                "no positions; give an input or a time, or leave at and times out for the full cycle",
                 code="motion.no_positions",
             )
         )

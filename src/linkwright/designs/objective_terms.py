@@ -73,7 +73,7 @@ def weighted(terms: Terms) -> dict[str | PathError, float]:
 
 
 def differentiable(asked: str | tuple[str, str]) -> Summary:
-    """The summary, or design number, that is asked for; raises RequestError for a place."""
+    """The summary, or metric, that is asked for; raises RequestError for a place."""
     found = wanted([asked])[0]
     if found.kind in ("argmin", "argmax"):
         raise RequestError(
@@ -114,13 +114,14 @@ def _points(target: ArrayLike) -> Floats:
 
 VALUE = "objective"
 NO_GRADIENTS = _(
-    "{name!r} has friction in more than 16 pairs of one group, or (for numbers of the cycle) passes "
-    "change points, or has friction with cams or groups without closed form, on a guide that is pressed"
-    " from both sides or teeth and chains that pull both ways, loads that divide by an output or follow a"
-    " link that turns through, or, over other cycles than full turns at constant speed, phases by "
-    "outputs with more limits than two, groups without closed form, or dimensions that move the inputs, "
-    "so no gradient of many designs is found; for summaries use sensitivity with steps, which takes one "
-    "design at a time, for design numbers study",
+    "{name!r} has friction in more than 16 pairs of one group, or (for numbers of the cycle) "
+    "passes change points, or has friction with cams or groups without closed form, on a "
+    "guide that is pressed from both sides or teeth and chains that pull both ways, loads "
+    "that divide by an output or follow a link that turns through, or, over other cycles "
+    "than full turns at constant speed, phases by outputs with more limits than two, groups "
+    "without closed form, or dimensions that move the inputs, so no gradient of many designs "
+    "is found; for summaries use sensitivity with steps, which takes one design at a time, "
+    "for metrics study",
     code="study.objective_loads",
 )
 
@@ -214,7 +215,7 @@ class Builder:
                     "{name!r} has a group without closed form, and passes change points, is given inputs "
                     "other than its cycle, or has loads by an output with more than two limits, so no "
                     "gradient of many designs is found; for summaries use sensitivity with steps, for "
-                    "design numbers study",
+                    "metrics study",
                     code="study.objective_iterates",
                     name=plain.mechanism.name,
                 )

@@ -107,8 +107,8 @@ def _quantity(part: str, unit: str, address: str, text: str) -> tuple[float, str
     if match is None:
         raise RequestError(
             _(
-                '{address}={text}: "{part}" is no quantity; write a range as 1.2..1.3 m:11, or '
-                "values as 1.2, 1.25, 1.3 m",
+                '{address}={text}: invalid quantity "{part}"; write a range as 1.2..1.3 m:11, or values '
+                "as 1.2, 1.25, 1.3 m",
                 code="study.no_quantity",
                 address=address,
                 text=text,

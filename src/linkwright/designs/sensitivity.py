@@ -169,10 +169,10 @@ def sensitivity(
     Args:
         mechanism: where the derivatives are taken.
         of: outputs (see :func:`sweep`), alone for their curves, or with a kind: ``driver.effort rms``. Kinds: min,
-            max, mean, rms, range, peak. Or design numbers, as in :func:`objective`; the curve of an output that is
+            max, mean, rms, range, peak. Or metrics, as in :func:`objective`; the curve of an output that is
             called like one is ``("velocity_ratio jaw", "curve")``.
         by: addresses of dimensions (``pitman.length``, ``jaw.mass``) or names of parameters.
-        steps: None for summaries of the cycle, exact between positions, as design numbers always are; a number for
+        steps: None for summaries of the cycle, exact between positions, as metrics always are; a number for
             those of so many positions, as curves have (without it 360).
         way: of summaries of positions: ``forward`` carries a derivative per dimension along with every line of the
             program, ``reverse`` sweeps back from a summary to all dimensions at once; ``auto`` chooses.
@@ -290,7 +290,7 @@ class _Derivation:
         return float(OF_VALUES[summary.kind](curve))
 
     def _of_cycle(self) -> dict[Summary, tuple[float, Floats]]:
-        """Design numbers and summaries of the cycle with their gradients."""
+        """Metrics and summaries of the cycle with their gradients."""
         mechanism, asked = self.traced.mechanism, {each.name: each for each in self.numbers}
         every: dict[Summary, tuple[float, Floats]] = {}
         columns = {by: np.array([mechanism.dimension(by)]) for by in self.by}

@@ -179,7 +179,7 @@ def study(
         mechanism: the design to start from.
         vary: by address of a dimension or name of a parameter, a range ``1.2..1.3 m:11`` (from, to, number of
             values), values ``1.2, 1.25, 1.3 m``, or numbers in SI.
-        metrics: registered design numbers, ``travel``, ``flywheel`` and the others of :func:`compare`, or summaries
+        metrics: registered metrics, ``travel``, ``flywheel`` and the others of :func:`compare`, or summaries
             of outputs (``driver.effort rms``), which are computed for all designs at once. None: the usual ones.
         sampling: ``grid``: every combination; ``sobol``: ``samples`` designs between the ends of the ranges, spread
             evenly (needs scipy).

@@ -158,13 +158,13 @@ def sweep(
             ``C.velocity.x``, ``jaw.angle``, ``jaw.angular_velocity``, ``guide.displacement``, ``reaction O5 on jaw``,
             ``couple guide on slider``, ``driver.effort``, ``input_torque``, ``power``, ``shaking_force``,
             ``closeness`` (to a singular position, 0 there), ``transmission_angle B``. Kinds: min, max, mean, rms,
-            range, peak, argmin, argmax (see :class:`Summary`). Design numbers as well, with a subject if wanted:
+            range, peak, argmin, argmax (see :class:`Summary`). Metrics as well, with a subject if wanted:
             ``rms_input_torque``, ``peak_reaction O5``; those that are no formulas of such summaries
             (``double_point``, ``range_of_motion``) are found one by one.
         steps: None for summaries of the cycle, exact between positions. A number for those of so many positions, off
             by some 1e-4 of smooth outputs, by percents where a load switches on between two of them
             (:attr:`Sweep.notes` says how far for the machine as it is), in a fraction of the time where nothing but
-            the motion is asked. Design numbers are exact in both.
+            the motion is asked. Metrics are exact in both.
         partial: keep numbers of what designs reach of the cycle, where they do not reach all, each found by itself;
             of positions from the first one on that it can be in.
         threads: None for all cores; results do not depend on it.

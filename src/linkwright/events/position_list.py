@@ -248,7 +248,7 @@ def _stepped(mapping: Mapping[str, Any], dimensions: Sequence[str]) -> Iterable[
         if key not in STEPPED:
             raise RequestError(
                 _(
-                    '"{name}" is no key of positions with a step; {hint}',
+                    'invalid key of positions with a step "{name}"; {hint}',
                     code="solve.step_key",
                     name=str(key),
                     hint=offered(str(key), STEPPED),
@@ -294,7 +294,7 @@ def _count(text: str) -> int:
         raise RequestError(
             pgettext(
                 "solve",
-                '"{text}" is no number of positions; give 2 to {most}',
+                'invalid number of positions "{text}"; give 2 to {most}',
                 code="solve.bad_count",
                 text=text,
                 most=MOST,

@@ -1,4 +1,4 @@
-"""What is exported: a motion with its forces and design numbers, and their tables, one per subject."""
+"""What is exported: a motion with its forces and metrics, and their tables, one per subject."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ class Results:
 
     @cached_property
     def metrics(self) -> MetricsTable:
-        """Design numbers; none where positions were not reached."""
+        """Metrics; none where positions were not reached."""
         from linkwright.analysis import metrics
 
         if not self.motion.complete:

@@ -220,7 +220,7 @@ class Number(Quantity):
         with suppress(ValueError):
             if math.isfinite(found := float(text)):
                 return found
-        message = _('"{text}" is no number; write it with a point and without a unit, such as 0.9', text=text)
+        message = _('invalid number "{text}"; write it with a point and without a unit, such as 0.9', text=text)
         reader.error(node, place, message, "", "type")
         return None
 

@@ -88,7 +88,10 @@ _PROBLEMS = {
     "escape": (_("an unknown escape in a quoted text"), _("write \\\\ for a backslash")),
     "unknown_tag": (_("an unknown tag"), _("remove the tag (the word with !)")),
     "given_twice": (_("duplicate"), _("remove one")),
-    "blank_after": (_('the blank after the colon of "{key_}" is no space ({character})'), _("write a space there")),
+    "blank_after": (
+        _('the blank after the colon of "{key_}" is not a space ({character})'),
+        _("write a space there"),
+    ),
     "no_space": (_('there is no space after the colon of "{key_}"'), _("write {key_}: {rest}")),
     "no_space_item": (_("there is no space after the dash of a list's item"), _("write - {rest}")),
     "equals_sign": (_('an equals sign follows the key "{key_}"'), _("write {key_}: {rest}")),
@@ -203,7 +206,7 @@ def accident_remarks(text: str) -> list[Remark]:
         else _remarks(
             _BLANK.finditer(text),
             text,
-            _("a blank in the indentation that is no space ({character})"),
+            _("a blank in the indentation that is not a space ({character})"),
             _("indent with spaces"),
             "blank",
         )
@@ -250,7 +253,7 @@ def wide_remarks(text: str) -> list[Remark]:
         ]
         if places:
             wide = line[min(places)]
-            message = _('the full-width character "{wide}" is no punctuation of YAML', code="yaml.wide", wide=wide)
+            message = _('the full-width character "{wide}" is not punctuation of YAML', code="yaml.wide", wide=wide)
             found.append(Remark(number, min(places), message, wide_remedy(wide), "syntax"))
     return found[:_MOST]
 

@@ -145,7 +145,7 @@ class Gear:
         if not ends[0] * (1 - 1e-9) <= radius <= ends[1] * (1 + 1e-9):
             raise RequestError(
                 _(
-                    "at a radius of {radius:.6g} mm the flank is no involute; give {low:.6g} to {high:.6g} mm",
+                    "at a radius of {radius:.6g} mm the flank is not an involute; give {low:.6g} to {high:.6g} mm",
                     code="gears.no_flank_there",
                     radius=1e3 * radius,
                     low=1e3 * ends[0],

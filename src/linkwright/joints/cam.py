@@ -343,9 +343,9 @@ class CamJoint(HigherPair):
     def sums(self, mechanism: Model) -> tuple[Mapping[str, float], Mapping[str, float], float]:
         raise LackingError(
             _(
-                "the lift of a cam is no sum of rotations and displacements, which is all that can "
-                "be used here: exports to MuJoCo and Modelica, and worked solutions of a cam within "
-                "a loop, take gears, racks and belts only",
+                "the lift of a cam is not a sum of rotations and displacements, which is all that can be "
+                "used here: exports to MuJoCo and Modelica, and worked solutions of a cam within a loop, "
+                "take gears, racks and belts only",
                 code="joints.cam_sums",
             )
         )

@@ -1,4 +1,4 @@
-"""Lower pairs as drawings, exports and design numbers see them: what turns, what slides, what holds two links."""
+"""Lower pairs as drawings, exports and metrics see them: what turns, what slides, what holds two links."""
 
 from __future__ import annotations
 

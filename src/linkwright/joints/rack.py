@@ -116,7 +116,7 @@ class RackPair(HigherPair):
         elsewhere = None if way is not None else replace(self, centre="")._way(mechanism)
         if elsewhere is not None:
             problem = _(
-                "{centre!r} is no pin to whose link a guide of the rack {rack!r} leads",
+                "{centre!r} is not a pin to whose link a guide of the rack {rack!r} leads",
                 code="joints.centre_unguided",
                 centre=self.centre,
                 rack=self.rack,
@@ -299,7 +299,7 @@ def _sized(entry: Entry) -> bool:
     if teeth is not None and not is_integer(teeth):
         entry.say(
             "teeth",
-            _("{value:g} is no number of teeth", code="joints.no_teeth", value=teeth),
+            _("invalid number of teeth {value:g}", code="joints.no_teeth", value=teeth),
             _("give an integer of at least 1"),
             "range",
         )

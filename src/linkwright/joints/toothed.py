@@ -211,7 +211,7 @@ class Numbers(Field):
                 reader.error(
                     item,
                     place,
-                    _("{value:g} is no number of teeth", code="joints.no_teeth", value=value),
+                    _("invalid number of teeth {value:g}", code="joints.no_teeth", value=value),
                     _("give an integer of at least 1"),
                     "range",
                 )

@@ -109,7 +109,7 @@ def _from_words(mechanism: Mechanism, structure: Structure) -> dict[str, float]:
             offer = nearest(word, list(words))
             hint = _("write {first} or {second}", first=words[0], second=words[1])
             problems[joint] = _(
-                "assembly.{joint}: {word!r} is no assembly mode of the {signature} group ({links}); {hint}",
+                "assembly.{joint}: {word!r} is not an assembly mode of the {signature} group ({links}); {hint}",
                 code="motion.no_mode",
                 joint=joint,
                 word=word,

@@ -44,8 +44,8 @@ class Portion(MotionLaw):
         if not 0.0 <= self.start < self.end <= 1.0 or abs(self._rise) < 1e-9:
             raise RequestError(
                 _(
-                    "the portion from u = {start:.6g} to {end:.6g} is no rise; give two places from 0 to "
-                    "1 between which the law moves",
+                    "the portion from u = {start:.6g} to {end:.6g} contains no rise; give two places from 0 "
+                    "to 1 between which the law moves",
                     code="laws.portion",
                     start=self.start,
                     end=self.end,

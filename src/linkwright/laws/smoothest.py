@@ -100,7 +100,7 @@ class FoundProgram(Program):
                         "window",
                         f"find.windows.{k}",
                         _("a window that ends before it begins, or with the larger bound below"),
-                        _("give from and to within the turn, increasing, and least below most"),
+                        _("give from and to within the turn, increasing, and the minimum below the maximum"),
                     )
                 )
         for k, (x, _unused) in enumerate(self.points):

@@ -51,7 +51,7 @@ class Balancing(PlotMixin, Tabular, Frozen):
     after: Forces
 
     def effect(self) -> Mapping[str, tuple[float, float]]:
-        """Peaks without and with, as the design numbers have them: shaking force N, shaking moment N·m, input torque
+        """Peaks without and with, as the metrics have them: shaking force N, shaking moment N·m, input torque
         N·m."""
         driver = next(iter(self.mechanism.drivers))
         peaks = {
@@ -271,7 +271,7 @@ def _shared_pin(mechanism: Mechanism, a: str, b: str) -> str:
             return joint.name
     raise LinkwrightError(
         _(
-            "links {a!r} and {b!r} share no pin, so {name!r} is no four-bar or slider-crank",
+            "links {a!r} and {b!r} share no pin, so {name!r} is not a four-bar or slider-crank",
             code="forces.no_pin_shared",
             a=a,
             b=b,

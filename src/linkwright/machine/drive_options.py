@@ -41,7 +41,7 @@ _BAD_SCALE = _(
     code="machine.bad_scale",
 )
 _BAD_AREA = _(
-    '"{text}" is no area; give numbers in mm² separated by commas, such as "+295, -685, +390"',
+    'invalid area "{text}"; give numbers in mm² separated by commas, such as "+295, -685, +390"',
     code="machine.bad_area",
 )
 _NOT_FINITE = _(

@@ -15,7 +15,7 @@ TEXTS = {
     "page.dimensions": _("Dimensions"),
     "page.loads": _("Loads and masses"),
     "page.driver": _("Drive"),
-    "page.numbers": _("Design numbers"),
+    "page.numbers": _("Metrics"),
     "page.curves": _("Curves"),
     "page.show": _("Show"),
     "page.paths": _("Paths"),

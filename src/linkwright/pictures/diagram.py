@@ -235,7 +235,7 @@ class Diagram:
         if ending not in ENDINGS:
             raise RequestError(
                 _(
-                    'the ending "{ending}" is no kind of picture; use {names}',
+                    'unknown picture format "{ending}"; use {names}',
                     code="picture.no_ending",
                     ending=ending,
                     names=ENDINGS,

@@ -262,7 +262,7 @@ def save_picture(svg: str, path: str | Path, *, force: bool, **options: Any) -> 
         return atomic_write(path, pdf(svg, **options), force=force)
     raise RequestError(
         _(
-            '{path}: the suffix "{suffix}" is no kind of picture; use .svg, .png or .pdf',
+            '{path}: unknown picture format "{suffix}"; use .svg, .png or .pdf',
             code="picture.no_picture_suffix",
             path=path,
             suffix=suffix,

@@ -316,7 +316,7 @@ class Animation:
             return atomic_write(path, film, force=force)
         raise RequestError(
             _(
-                '{path}: the suffix "{suffix}" is no kind of animation; use .svg, .gif or .mp4',
+                '{path}: unknown animation format "{suffix}"; use .svg, .gif or .mp4',
                 code="picture.no_film_suffix",
                 path=path,
                 suffix=suffix,

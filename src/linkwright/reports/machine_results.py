@@ -67,7 +67,7 @@ class ReportContext:
         self.say: Translate = speaker(language)
         #: Why the numbered positions do not begin at the limit position that the file names.
         self.unnumbered = ""
-        #: Design numbers that the report shows.
+        #: Metrics that the report shows.
         self.used: dict[str, None] = {}
 
     @property
@@ -112,7 +112,7 @@ class ReportContext:
 
     @cached_property
     def metrics(self) -> MetricsTable:
-        """Design numbers."""
+        """Metrics."""
         from linkwright.analysis import metrics
 
         return metrics(self.result)

@@ -45,7 +45,7 @@ def picture_of(name: str, folder: str) -> Picture:
     if path.suffix.lower() not in FORMS:
         raise LinkwrightError(
             _(
-                '"{name}" is no picture that a report can hold; use {endings}',
+                'a report cannot show the picture "{name}"; use {endings}',
                 code="report.picture_form",
                 name=name,
                 endings=tuple(FORMS),

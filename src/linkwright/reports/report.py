@@ -73,7 +73,7 @@ class Report:
             return pages(self.document)[0].encode()
         raise RequestError(
             _(
-                'the ending "{ending}" is no form of a report; use {endings}',
+                'a report cannot be written with the ending "{ending}"; use {endings}',
                 code="report.bad_ending",
                 ending=ending,
                 endings=ENDINGS,

@@ -387,7 +387,7 @@ class _Reading(SectionReading):
             return int(text)
         if re.fullmatch(r"[-+]?[\d.]+", text) or isinstance(value, bool) or value is None:
             message = _(
-                '"{text}" is no number of positions; give 2 to {most}',
+                'invalid number of positions "{text}"; give 2 to {most}',
                 code="report.bad_positions",
                 text=flow(value),
                 most=MOST,

@@ -34,8 +34,8 @@ LIFTING = (120, 60, 120, 60)
 
 
 _NO_CAM = _(
-    "{cam!r} is no cam for a roller at {at!r}: a cam needs a fixed point, and the roller "
-    "a link of its own that slides or turns on the frame",
+    "{cam!r} cannot be the cam of a roller at {at!r}: a cam needs a fixed point, and the "
+    "roller a separate link that slides or turns on the frame",
     code="studio.no_cam",
 )
 
@@ -103,7 +103,7 @@ def add_rack(draft: Draft, action: Mapping[str, Any]) -> None:
     if centre is None or way is None or through not in shown["points"]:
         raise LinkwrightError(
             _(
-                "{pinion!r} and {rack!r} are no pinion and rack: click a link with a fixed point, "
+                "{pinion!r} and {rack!r} cannot be pinion and rack: click a link with a fixed point, "
                 "then a link that slides on the frame in a direction given as an angle",
                 code="studio.no_rack",
                 pinion=pinion,
@@ -174,7 +174,7 @@ def _lead_away(draft: Draft, name: str, guide: MappingNode, away: complex) -> No
     if way is None or node is None:
         raise LinkwrightError(
             _(
-                "the direction of {name!r} is no plain angle, so that no cam can be placed by it; "
+                "the direction of {name!r} is not a plain angle, so that no cam can be placed by it; "
                 "write it in degrees",
                 code="studio.no_guide_angle",
                 name=name,
@@ -233,7 +233,7 @@ _FINEST = 1e-4
 _TEETH = re.compile(r"\s*([1-9][0-9]{0,5})\s*[:：]\s*([1-9][0-9]{0,5})\s*")
 
 
-_NO_SLOT = _("{name!r} is no link with two drawn points along which something could slide", code="studio.no_slot")
+_NO_SLOT = _("{name!r} is not a link with two drawn points along which something could slide", code="studio.no_slot")
 
 
 def edited(text: str, action: Mapping[str, Any]) -> tuple[str, str]:
@@ -350,7 +350,7 @@ def _gear(draft: Draft, action: Mapping[str, Any]) -> None:
     teeth = _TEETH.fullmatch(text)
     if teeth is None:
         raise LinkwrightError(
-            _("{text!r} are no two numbers of teeth; write them as 20:40", code="studio.no_teeth", text=text)
+            _("invalid numbers of teeth {text!r}; write them as 20:40", code="studio.no_teeth", text=text)
         )
     links = request.names(action, "links")
     entry = {"kind": GearPair.kind, "links": links, "teeth": [int(z) for z in teeth.groups()]}

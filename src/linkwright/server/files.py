@@ -47,7 +47,7 @@ class Files:
         if hidden or path.suffix.lower() not in _ENDINGS or UNFIT.search(name) or "\n" in name:
             raise LinkwrightError(
                 _(
-                    "{name} is no model file below the folder in which the studio was started",
+                    "{name} is not a model file below the folder in which the studio was started",
                     code="studio.outside",
                     name=printable(name),
                 )

@@ -281,7 +281,8 @@ TEXTS = {
         "The file on the disk has changed since it was opened; save under another name, or overwrite it."
     ),
     "studio.typed_meanwhile": _(
-        "The text was changed while that of the disk came, and is kept; take the disk's again to put it in its place."
+        "The text was changed while that of the disk came, and is saved; load the disk's again "
+        "to put it in its place."
     ),
     "studio.there_already": _(
         "{name} is there already, as a file or as an unsaved drawing; save under another name, or overwrite it."

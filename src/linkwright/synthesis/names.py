@@ -206,7 +206,7 @@ NOT_WITH = _('"{demand}" does not apply with {other}; leave out one of them', co
 ONLY_WITH = _(
     '"{demand}" applies only with "{needs}"; leave it out or give that as well', code="synthesize.task.only_with"
 )
-DEMAND_UNKNOWN = _('"{demand}" is no demand of the task "{task}"; {hint}', code="synthesize.task.unknown")
+DEMAND_UNKNOWN = _('the task "{task}" has no demand "{demand}"; {hint}', code="synthesize.task.unknown")
 TRANSMISSION_RANGE = _(
     "invalid minimum transmission angle {value} deg; expected more than 0 and less than 90 deg",
     code="synthesize.transmission_range",

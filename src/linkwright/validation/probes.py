@@ -78,7 +78,7 @@ def _motion(source: str, steps: int) -> Any:
 
 
 def metrics(inputs: Mapping[str, Any]) -> Find:
-    """Design numbers: ``stroke``, or ``stroke guide`` with its subject."""
+    """Metrics: ``stroke``, or ``stroke guide`` with its subject."""
     from linkwright.analysis import metrics as table_of
 
     motion = _motion(_source(inputs), 90)

@@ -116,7 +116,7 @@ def ram_between(course: str, load: str) -> lw.Mechanism:
     return lw.loads(RAM.replace("LAW", law).replace("CYCLE", cycle).replace("LOAD", f"direction: 0 deg, {load}"))
 
 
-#: Design numbers of which every design is certain, all of them of one formula: machines, dimensions, numbers.
+#: Metrics of which every design is certain, all of them of one formula: machines, dimensions, numbers.
 CERTAIN: dict[str, tuple[Callable[[], lw.Mechanism], list[str], list[str]]] = {
     **{
         f"ram, {course}, {load}": (

@@ -1,4 +1,4 @@
-"""Every registered design number has its unit and its words in both languages."""
+"""Every registered metric has its unit and its words in both languages."""
 
 import pytest
 

@@ -84,7 +84,7 @@ def test_an_unknown_element_is_refused_and_the_rest_is_there(monkeypatch: pytest
     found = report("gallery:crank_rocker", sections=["task", "method", "limits"])
     assert any(reason in sentence for sentence in found.missing)
     headings = [b.text for b in found.document.blocks if isinstance(b, Heading)]
-    assert headings[-1] == _("Limit positions and design numbers").translate("en")
+    assert headings[-1] == _("Limit positions and metrics").translate("en")
 
 
 def test_an_error_of_the_program_does_not_end_the_report(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -27,7 +27,7 @@ BAD_COUNT = _(
     _(
         """\
 Compares two or more machines by the motion of an output that they share and by
-their design numbers: best values are marked, the ranking gives its reasons, and a
+their metrics: best values are marked, the ranking gives its reasons, and a
 written evaluation is built from the numbers (motion, pivot reaction, balancing
 torque, flywheel)."""
     ),
@@ -45,7 +45,7 @@ linkwright compare a.yaml b.yaml --of jaw ram          the output of each"""
     "METRIC",
     several=True,
     help=_(
-        "what to compare by: design numbers, travel, output_velocity, output_acceleration, "
+        "what to compare by: metrics, travel, output_velocity, output_acceleration, "
         'pivot_reaction, flywheel, or a summary of an output in quotes ("driver.effort rms")'
     ),
 )

@@ -47,7 +47,7 @@ writes the results to a file; the file's ending chooses the format.
   .xlsx           one sheet per subject            .dxf    drawing at true scale
   .xml            MuJoCo model (MJCF)              .mo     Modelica model
   .svg .png .pdf  kinematic drawing                .html   living page, works without a network
-  .md             table of the design numbers      .py     Python program that solves the machine"""
+  .md             table of the metrics             .py     Python program that solves the machine"""
     ),
     _(
         """\

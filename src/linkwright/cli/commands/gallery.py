@@ -19,7 +19,7 @@ ACTIONS = ("list", "show", "copy")
     _(
         """\
 Machines that come with Linkwright, from single dyads to an excavator arm. Each
-file states its purpose, its source and expected numbers. gallery:NAME stands for
+file states its purpose, its source and expected numbers. gallery:NAME is
 such a file wherever a command takes a model file."""
     ),
     _(

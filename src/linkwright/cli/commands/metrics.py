@@ -1,4 +1,4 @@
-"""``linkwright metrics``: the design numbers of a machine."""
+"""``linkwright metrics``: the metrics of a machine."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ NO_NAMES = _('--names: "{text}" has an empty place between commas', code="metric
 
 
 @command(
-    _("design numbers: transmission angle, strokes, peak torque and reactions, …"),
+    _("metrics: transmission angle, strokes, peak torque and reactions, …"),
     _(
         """\
-Prints all design numbers of a machine that apply to it, each with its value, where
+Prints all metrics of a machine that apply to it, each with its value, where
 in the cycle it occurs, the recommended limit and a remark. Warnings stand beneath,
 closeness to a singular position first."""
     ),

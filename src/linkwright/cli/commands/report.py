@@ -20,12 +20,12 @@ SECTIONS = (
 
 
 @command(
-    _("the whole report: structure, method, worked position, tables, curves, forces, flywheel"),
+    _("the full report: structure, method, worked position, tables, curves, forces, flywheel"),
     _(
         """\
 Writes the report of a machine as PDF, HTML or Word file: task and data, drawing,
 structure, method, one worked position with its polygons, tables over the cycle,
-curves, joint forces, driving torque by both methods, design numbers, flywheel,
+curves, joint forces, driving torque by both methods, metrics, flywheel,
 appendix, references. Several files are compared. The section "report" of a model
 file sets title, cover, own chapters and text, sources, order and more."""
     ),

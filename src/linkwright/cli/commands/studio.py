@@ -9,7 +9,7 @@ from linkwright.words import _
 from linkwright.words.message import reason_of
 
 LAST_PORT = 65535
-OUTSIDE = _("{name} is no model file below the folder in which the studio was started", code="studio.outside")
+OUTSIDE = _("{name} is not a model file below the folder in which the studio was started", code="studio.outside")
 
 
 NO_PORT = _("port {port} cannot be used: {reason}; choose another one, or none for a free one", code="studio.no_port")
@@ -19,10 +19,10 @@ NO_PORT = _("port {port} cannot be used: {reason}; choose another one, or none f
     _("draw, change and solve a machine in the browser, next to its file"),
     _(
         """\
-Opens the studio in the browser: the machine as on a living page, the text of its file beside it, both
-ways in step, findings at their lines, and tools that draw a mechanism from nothing. The server answers
+Opens the studio in the browser: the machine as on a living page, the text of its file next to it, both
+kept in step, findings at their lines, and tools that draw a mechanism from nothing. The server answers
 this machine only and reads and writes model files below the folder it is started in. Every change is
-kept at once; what was not saved is there again after a crash."""
+saved at once; what was not saved is there again after a crash."""
     ),
     """\
 linkwright studio

@@ -44,8 +44,8 @@ linkwright study linkage.yaml --vary "coupler.length=2..4 m" --sampling sobol --
     "--metrics",
     "METRIC",
     help=_(
-        "design numbers (see linkwright.metrics), travel, flywheel, or summaries of outputs "
-        'in quotes ("driver.effort rms", "C.velocity max")'
+        "metrics (see linkwright.metrics), travel, flywheel, or summaries of outputs in quotes "
+        '("driver.effort rms", "C.velocity max")'
     ),
     several=True,
 )

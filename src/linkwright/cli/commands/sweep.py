@@ -12,11 +12,11 @@ from linkwright.words import _
     _("numbers of very many designs, part by part, also on a cluster"),
     _(
         """\
-Computes summaries and design numbers of every combination of ranges, or of a
+Computes summaries and metrics of every combination of ranges, or of a
 Sobol sequence, part by part into a folder of Parquet files. Files are written
-whole; run again after an interruption, it goes on with the missing parts. Memory
+atomically; run again after an interruption, it goes on with the missing parts. Memory
 does not grow with the designs. With --cluster the parts are computed by the
-workers of a Dask scheduler, to the same bits; workers may die."""
+workers of a Dask scheduler, workers may die."""
     ),
     """\
 linkwright sweep gallery:crank_rocker --vary coupler.length=3..4m:300 rocker.length=2..3m:300 \\
@@ -30,7 +30,7 @@ linkwright sweep crusher.yaml --vary pitman.length=1.1..1.4m --sampling sobol --
     "--numbers",
     "NUMBER",
     required=True,
-    help=_("summaries such as 'rocker.angle range' and design numbers such as peak_reaction"),
+    help=_("summaries such as 'rocker.angle range' and metrics such as peak_reaction"),
     several=True,
 )
 @option(
@@ -42,7 +42,7 @@ linkwright sweep crusher.yaml --vary pitman.length=1.1..1.4m --sampling sobol --
 @sampling(65536)
 @count(
     "--steps",
-    help=_("summaries of so many positions over the cycle (without it of the whole cycle, exact between them)"),
+    help=_("summaries of so many positions over the cycle (without it of the full cycle, exact between them)"),
 )
 @count("--part", 16384, help=_("designs of a part, rounded up to a power of two (default 16384)"))
 @cluster
@@ -50,8 +50,8 @@ linkwright sweep crusher.yaml --vary pitman.length=1.1..1.4m --sampling sobol --
     "--best",
     "NUMBER",
     help=_(
-        "also the ten designs best in this number: the greatest where more is better, as of "
-        "a transmission angle, else the least"
+        "also the ten designs best in this number: the largest where more is better, as of a "
+        "transmission angle, else the smallest"
     ),
 )
 def run(options: Options, session: Session) -> int:

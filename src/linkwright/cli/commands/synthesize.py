@@ -16,8 +16,8 @@ from linkwright.words import _
         """\
 Finds linkages for a task: a path, a free curve, poses, a function, or requirements such as
 stroke and quick-return ratio. Shows every candidate with its error, Grashof
-type, defects over the whole range, smallest transmission angle and ratio of
-longest to shortest link; writes each as a model file. The task stands in the
+type, defects over the full range, smallest transmission angle and ratio of
+longest to shortest link; writes each as a model file. The task is in the
 section "synthesis" of a file, or on the command line as KEY=VALUE."""
     ),
     """\

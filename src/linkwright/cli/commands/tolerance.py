@@ -21,9 +21,8 @@ def hint(word: str) -> str:
     from linkwright.registry import nearest
 
     return _(
-        "what is asked stands in the file (kind: tolerance): of: [{name}], a design number "
-        'as metrics names it, or "OUTPUT KIND" such as "rocker.angle range" (min, max, mean, '
-        "rms, range, peak)",
+        "the question is in the file (kind: tolerance): of: [{name}], a metric as metrics names "
+        'it, or "OUTPUT KIND" such as "rocker.angle range" (min, max, mean, rms, range, peak)',
         name=nearest(word[:100], list(METRICS)) or word,
     )
 
@@ -32,7 +31,7 @@ def hint(word: str) -> str:
     _("what tolerances and clearances do to a mechanism's numbers"),
     _(
         """\
-Finds the spread of design numbers and curves of a mechanism from tolerances of its
+Finds the spread of metrics and curves of a mechanism from tolerances of its
 dimensions and clearances of its pins: linear with exact derivatives, and by Monte
 Carlo; what contributes most; the share of machines within limits. A clearance is
 free, or its pin follows the joint's own reaction."""

@@ -40,15 +40,14 @@ _WORDS = re.compile(r"[^\W\d][\w.]*( [\w.]+)*")
 
 
 _NO_NUMBER = _(
-    'there is no number "{text}"; name a design number (linkwright metrics), flywheel, a '
-    'summary such as "jaw.angle range", a dimension, or an expression of names given by '
-    "define:",
+    'there is no number "{text}"; name a metric (linkwright metrics), flywheel, a summary '
+    'such as "jaw.angle range", a dimension, or an expression of names given by define:',
     code="optimize.no_number",
 )
 
 
 class Measures:
-    """The quantities of a problem: texts of goals and demands, each a design number or an expression of some.
+    """The quantities of a problem: texts of goals and demands, each a metric or an expression of some.
 
     ``side_by_side``: designs go together, with exact gradients; else one after the other, without. ``judged``: the
     numbers of these by the values of the addresses, in the order of the problem's.
@@ -82,7 +81,7 @@ class Measures:
         return self.mechanism.dimensions()
 
     def _expression(self, text: str) -> tuple[Expression | None, dict[str, str]]:
-        """An expression with the design numbers of its names; None for a number that stands alone."""
+        """An expression with the metrics of its names; None for a number that stands alone."""
         paths = self.problem.paths
         definition = text if text in paths else str(self.problem.define.get(text, text))
         if self._is_number(definition):
@@ -294,7 +293,7 @@ class Measures:
     def _numbers_with_slopes(
         self, cycle: MetricsOfDesigns, names: list[str], columns: Mapping[str, Floats], by: tuple[str, ...]
     ) -> tuple[Floats, Floats]:
-        """Values (numbers, designs) and gradients (numbers, designs, k) of design numbers that a cycle finds."""
+        """Values (numbers, designs) and gradients (numbers, designs, k) of metrics that a cycle finds."""
         own = [k for k, address in enumerate(by) if address in cycle.dimensions]
         asked, mine = [{name: 1.0} for name in names], [by[k] for k in own]
         with np.errstate(all="ignore"):

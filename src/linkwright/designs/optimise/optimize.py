@@ -88,7 +88,7 @@ def optimize(
             demands not all met at first.
         settings: those of the section, by the same names, in place of it:
             ``vary``: by address or parameter a range ``"80..120 mm"``, ``{"values": [...]}`` (a catalogue) or
-            ``{"whole": "18..40"}``; ``minimize``, ``maximize``: a number or several: a design number
+            ``{"whole": "18..40"}``; ``minimize``, ``maximize``: a number or several: a metric
             (``peak_reaction O5``), ``flywheel``, a summary (``jaw.angle range``), a dimension, a
             :class:`PathError`, or an expression of names that ``define`` gives to these; ``keep``: by number
             ``"at least 40 deg"``, ``"at most 60 kN"``, ``"1..2 m"``,

@@ -351,6 +351,6 @@ def _split(text: str) -> tuple[float, str]:
     match = re.match(r"^([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)$", text.strip())
     if match is None:
         raise QuantityError(
-            _('"{text}" is no value; write a number with its unit, such as 40 deg', text=text), code="quantity"
+            _('invalid value "{text}"; write a number with its unit, such as 40 deg', text=text), code="quantity"
         )
     return float(match[1]), match[2].strip()

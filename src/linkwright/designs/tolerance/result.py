@@ -76,7 +76,7 @@ class Spread(SpreadNumbers, Result):
                         fault(
                             "pressed_number",
                             f"of.{self.study.of.index(text)}",
-                            _('"{name}" is a design number; pressed pins shift summaries of outputs alone'),
+                            _('"{name}" is a metric; pressed pins shift summaries of outputs alone'),
                             _("name a summary such as rocker.angle range, or leave the pressed clearances out"),
                             name=text,
                         )

@@ -21,7 +21,7 @@ from linkwright.words import _, pgettext
 class ToleranceStudy(Tolerances):
     """Tolerances by address of a dimension (``crank.length``), clearances by pin, and the outputs ``of`` interest.
 
-    ``of``: summaries over the cycle as in sweeps (``rocker.angle range``, ``driver.effort peak``), or design numbers
+    ``of``: summaries over the cycle as in sweeps (``rocker.angle range``, ``driver.effort peak``), or metrics
     (``stroke``, ``peak_reaction A``) where no clearance is pressed; ``curves``: outputs over the cycle;
     ``limits`` by what is asked.
     """
@@ -101,7 +101,7 @@ class ToleranceStudy(Tolerances):
                     fault(
                         "no_number",
                         key,
-                        _('there is no output or design number "{name}"'),
+                        _('there is no output or metric "{name}"'),
                         _('did you mean "{offer}"?'),
                         name=text,
                         offer=offer,

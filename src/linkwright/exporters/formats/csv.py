@@ -25,7 +25,7 @@ def of_result(result: Tabular, language: str) -> bytes:
 
 
 def markdown(results: Results) -> bytes:
-    """The design numbers of a machine."""
+    """The metrics of a machine."""
     return of_tables(results.metrics, results.language)
 
 

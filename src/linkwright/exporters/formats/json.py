@@ -13,7 +13,7 @@ from linkwright.exporters.results import Results, tables
 
 
 def content(results: Results, *, indent: int = 1) -> bytes:
-    """The model, its structure, all columns with owner, quantity and unit, outcomes, notes, design numbers.
+    """The model, its structure, all columns with owner, quantity and unit, outcomes, notes, metrics.
 
     What is not a finite number is null. ``indent``: spaces per level.
     """

@@ -49,7 +49,7 @@ HEADS = {
     "order": _("order"),
     "drivers": pgettext("export", "drivers"),
     "joints": _("joints"),
-    "metric": _("design number"),
+    "metric": _("metric"),
     "subject": _("of"),
     "at": _("at input"),
     "at_unit": _("unit"),
@@ -61,7 +61,7 @@ _METRICS = {"metric": 34, "subject": 24, "value": 14, "unit": 8, "at": 12, "at_u
 
 
 def content(results: Results, *, degrees: bool = False) -> bytes:
-    """Sheets on the model, its structure, links, points, joints, forces, loads, charts and design numbers.
+    """Sheets on the model, its structure, links, points, joints, forces, loads, charts and metrics.
 
     Charts are the program's own, of the cells of the other sheets: motion of the outputs, joint forces and driving
     effort over the input, the hodograph of the joint on the frame that carries most.

@@ -170,7 +170,7 @@ def constraint(
     parts = [part.strip() for part in _SENSE.split(text)]
     if len(parts) not in (3, 5) or (len(parts) == 5 and "=" in (SENSES[parts[1]], SENSES[parts[3]])):
         raise QuantityError(
-            _('"{text}" is no constraint', text=text), _("write left <= right, left >= right or left = right")
+            _('invalid constraint "{text}"', text=text), _("write left <= right, left >= right or left = right")
         )
     sides = [formula(part, kinds, constants) for part in parts[::2]]
     for side in sides[1:]:

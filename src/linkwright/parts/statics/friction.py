@@ -95,7 +95,7 @@ class Belt(Problem):
                 fault(
                     "groove",
                     "groove",
-                    _("a groove of 180° or more is no groove"),
+                    _("a groove must be narrower than 180°"),
                     _("leave it out for a flat belt, or give an angle such as 38 deg"),
                 )
             )

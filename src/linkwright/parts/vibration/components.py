@@ -75,7 +75,7 @@ class Excitation:
                 fault(
                     "table",
                     "excitation.table",
-                    _("the measured force is no table of increasing times"),
+                    _("the measured force must be a table of increasing times"),
                     _("give as many forces as times, two or more, times increasing"),
                 )
             ]

@@ -294,7 +294,7 @@ def _point(source: PlotInput, name: str) -> str:
     if not found.is_point:
         raise RequestError(
             _(
-                '"{name}" is no point of a moving link, so it has no path; name a point, such as jaw.D',
+                '"{name}" is not a point of a moving link, so it has no path; name a point, such as jaw.D',
                 code="picture.no_path",
                 name=name,
             )

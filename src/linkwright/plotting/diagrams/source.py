@@ -138,7 +138,7 @@ class PlotInput:
         return f"{SYMBOLS[dimension]}\u00a0=\u00a0{unit_of(dimension).text(value, 6)}"
 
     def extremes(self, signal: Callable[[Any], Floats], of: str = "motion") -> Extremes:
-        """Extremes over the cycle of a signal of the motion, or of the forces, as the design numbers have them."""
+        """Extremes over the cycle of a signal of the motion, or of the forces, as the metrics have them."""
         loads = of == "forces"
         analysis = Analysis.of(self.forces if loads else self.motion)
 

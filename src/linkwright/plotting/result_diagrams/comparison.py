@@ -143,7 +143,7 @@ WRONG = "#f6d5d0"
 Group = tuple[str, tuple[MetricValue, ...]]
 
 
-@result_diagram("metrics", _("design numbers and recommended limits"), MetricsTable, options=("of",))
+@result_diagram("metrics", _("metrics and recommended limits"), MetricsTable, options=("of",))
 def draw_metrics(result: MetricsTable, request: Request) -> Figure:
     """A row of dots for every subject of a metric, an axis for every metric and unit, with its recommended limit.
 

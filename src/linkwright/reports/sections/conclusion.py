@@ -1,6 +1,6 @@
 """The conclusion in sentences: what the machine does, which limits it keeps, and which length would improve it most.
 
-Every number is one that other sections print: from the design numbers, the steady running, the extremes of curves.
+Every number is one that other sections print: from the metrics, the steady running, the extremes of curves.
 """
 
 from __future__ import annotations
@@ -370,7 +370,7 @@ SAME = 1e-6
 
 @dataclass(frozen=True)
 class Improvement:
-    """A link length that, one percent ``longer`` or shorter, brings the design number ``row`` to about ``better``;
+    """A link length that, one percent ``longer`` or shorter, brings the metric ``row`` to about ``better``;
     the travel of ``output`` then changes by ``side_effect`` percent."""
 
     row: MetricValue

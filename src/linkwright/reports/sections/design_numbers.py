@@ -1,4 +1,4 @@
-"""Limit positions and design numbers of a machine, and the comparison of all machines of the report."""
+"""Limit positions and metrics of a machine, and the comparison of all machines of the report."""
 
 from __future__ import annotations
 
@@ -22,20 +22,20 @@ from linkwright.words.message import in_language
 ELSEWHERE = ("peak_reaction", "rms_reaction", "flywheel")
 
 
-@section("limits", _("Limit positions and design numbers"), 10.0, optional=True)
+@section("limits", _("Limit positions and metrics"), 10.0, optional=True)
 def limits(case: ReportContext) -> Iterator[Block]:
-    """Design numbers of the motion and the forces, with the limits that are recommended."""
+    """Metrics of the motion and the forces, with the limits that are recommended."""
     say = case.say
     rows = [row for row in case.metrics if row.metric not in ELSEWHERE]
     if not rows:
-        raise Missing(_("no design number applies to this machine", code="report.no_numbers"))
+        raise Missing(_("no metric applies to this machine", code="report.no_numbers"))
     yield Paragraph(say(_("Largest and smallest values are exact, found between the solved positions.")))
     yield from _quick_return(case, rows)
     for metric in dict.fromkeys(row.metric for row in rows):
         case.used[metric] = None
     head = (*CELLS[:4], _("at the input"), _("recommended"))
     cells = [cells for cells, _unused in cells_of_values(rows, case.language)]
-    yield printed(Table(head, cells, "<<><>>", _("Design numbers")), case.language, "numbers")
+    yield printed(Table(head, cells, "<<><>>", _("Metrics")), case.language, "numbers")
     for sentence in case.metrics.warnings_in(case.language):
         yield Paragraph(literal(sentence), "note")
 
@@ -63,7 +63,7 @@ def _quick_return(case: ReportContext, rows: list[MetricValue]) -> Iterator[Bloc
 
 @section("comparison", _("Comparison and evaluation"), 20.0, optional=True, common=True)
 def comparison(cases: Sequence[ReportContext]) -> Iterator[Block]:
-    """Design numbers side by side, best values marked; ranking with reasons; evaluation."""
+    """Metrics side by side, best values marked; ranking with reasons; evaluation."""
     from linkwright.designs.compare import compare
 
     if len(cases) < 2:
@@ -80,7 +80,7 @@ def comparison(cases: Sequence[ReportContext]) -> Iterator[Block]:
         raise
     table = found.tables(first.language)[0]
     head = [literal(in_language(each, first.language)) for each in table.head]
-    alternatives = replace(table, head=head, title=_("Design numbers of the alternatives"))
+    alternatives = replace(table, head=head, title=_("Metrics of the alternatives"))
     yield printed(alternatives, first.language, "comparison")
     for note in table.notes:
         yield Paragraph(literal(note))

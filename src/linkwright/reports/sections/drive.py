@@ -122,7 +122,7 @@ def flywheel(case: ReportContext) -> Iterator[Block]:
                 )
             )
         )
-    head = (_("design number"), _("value"), _("unit"), _("at the input"))
+    head = (_("metric"), _("value"), _("unit"), _("at the input"))
     rows = [row for table in running.tables(case.language, digits=6) for row in table.rows]
     table = Table(head, rows, "<><>", _("Motor, energy fluctuation and flywheel"))
     yield printed(table, case.language, "flywheel")

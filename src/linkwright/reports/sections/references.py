@@ -52,13 +52,13 @@ def _groups(case: ReportContext) -> Sequence[Group]:
 
 
 def _definitions(cases: Sequence[ReportContext]) -> Iterator[Block]:
-    """Where the design numbers of the report are defined."""
+    """Where the metrics of the report are defined."""
     names = dict.fromkeys(name for case in cases for name in case.used)
     language = cases[0].language
     rows = [(METRICS[name]().label_in(language), _titles(METRICS[name].source, cases[0])) for name in names]
     if rows:
-        head = (_("design number"), _("defined in"))
-        yield printed(Table(head, rows, "<<", _("Definitions of the design numbers")), language)
+        head = (_("metric"), _("defined in"))
+        yield printed(Table(head, rows, "<<", _("Definitions of the metrics")), language)
 
 
 def _titles(source: str, case: ReportContext) -> str:
