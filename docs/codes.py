@@ -26,7 +26,6 @@ PLACES = {
     "add": 3,
     "_wrong": 2,
     "wrong": 2,
-    "say": 3,
     "ExpressionError": 4,
     "note": 2,
 }

@@ -66,12 +66,12 @@ def case_of(number: int) -> GearedCase:
 def verdict(number: int, orders: int) -> Verdict:
     """On one mechanism in some orders of its file."""
     case = case_of(number)
-    say = partial(Verdict, number)
+    translate = partial(Verdict, number)
     reference = well_placed(case)
     if reference is None:
         with suppress(lw.LinkwrightError):
             lw.solve_forces(lw.solve_motion(lw.loads(case.text), times=TIMES))
-        return say(UNJUDGED, case.kinds)
+        return translate(UNJUDGED, case.kinds)
     for order in range(orders):
         text = reordered(case.text, np.random.default_rng([number, order])) if order else case.text
         kind, lines = AGREES, tuple[str, ...]()
@@ -80,13 +80,13 @@ def verdict(number: int, orders: int) -> Verdict:
             kind = "differs" if lines else AGREES
         except lw.LinkwrightError as error:
             if error.code in LACKING:
-                return say(UNOFFERED, case.kinds)
+                return translate(UNOFFERED, case.kinds)
             kind, lines = "refused", (str(error),)
         except Exception:
             kind, lines = "crash", tuple(traceback.format_exc().splitlines()[-6:])
         if kind != AGREES:
-            return say(kind, case.kinds, (f"order {order}", *lines), text)
-    return say(AGREES, case.kinds)
+            return translate(kind, case.kinds, (f"order {order}", *lines), text)
+    return translate(AGREES, case.kinds)
 
 
 def verdicts(seed: int, orders: int, workers: int) -> Iterator[Verdict]:

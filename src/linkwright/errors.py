@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Literal
 
-from linkwright.words import LANGUAGES, Message, Translate, _, say
+from linkwright.words import LANGUAGES, Message, Translate, _, translate
 from linkwright.words.message import code_of, in_language, values_of
 
 Severity = Literal["error", "warning", "note"]
@@ -37,7 +37,7 @@ class Finding:
     code: str = ""
 
     def __str__(self) -> str:
-        return self.say()
+        return self.translate()
 
     @property
     def values(self) -> dict[str, object]:
@@ -49,7 +49,7 @@ class Finding:
         names = ("severity", "where", "key", "message", "remedy", "code")
         return {name: getattr(self, name) for name in names}
 
-    def say(self, language: str = "en") -> str:
+    def translate(self, language: str = "en") -> str:
         """Place and sentence in a language."""
         place = "".join(f"{part}: " for part in (self.where, self.key) if part)
         body = with_remedy(self.message, self.remedy)
@@ -70,16 +70,16 @@ def fault(code: str, key: str, message: Message, remedy: Message, **values: obje
 class LinkwrightError(Exception):
     """Base of every error that the user can do something about.
 
-    ``message``: a sentence. ``str(error)`` is English, and
-    ``error.say("zh")`` says the same in Chinese. ``error.code`` is a short stable word for programs and tests, and
-    ``error.values`` what the message is about: the wording may change, these do not.
+    ``message``: a sentence. ``str(error)`` is English, and ``error.translate("zh")`` is the same in Chinese.
+    ``error.code`` is a short stable word for programs and tests, and ``error.values`` what the message is about: the
+    wording may change, these do not.
     """
 
     def __init__(self, message: str = "", /) -> None:
         super().__init__(message)
 
     def __str__(self) -> str:
-        return self.say()
+        return self.translate()
 
     @property
     def sentence(self) -> str:
@@ -96,7 +96,7 @@ class LinkwrightError(Exception):
         """What the message is about, by name: the numbers and names that stand in it."""
         return values_of(self.sentence)
 
-    def say(self, language: str = "en") -> str:
+    def translate(self, language: str = "en") -> str:
         """The message in a language."""
         return in_language(self.sentence, language)
 
@@ -134,9 +134,9 @@ class ModelError(LinkwrightError):
     def _first(self) -> Finding:
         return next((each for each in self.findings if each.severity == "error"), self.findings[0])
 
-    def say(self, language: str = "en") -> str:
+    def translate(self, language: str = "en") -> str:
         """All findings in a language, one a line."""
-        return "\n".join(finding.say(language) for finding in self.findings)
+        return "\n".join(finding.translate(language) for finding in self.findings)
 
     def __reduce__(self) -> tuple[type[ModelError], tuple[tuple[Finding, ...]]]:
         return ModelError, (self.findings,)
@@ -172,9 +172,9 @@ def require_language(language: str) -> None:
 
 
 def speaker(language: str) -> Translate:
-    """``say`` for one language: ``speaker("zh")("cli.error")``; raises UnknownName for one without words."""
+    """``translate`` for one language: ``speaker("zh")("cli.error")``; raises UnknownName for one without words."""
     require_language(language)
-    return partial(say, language=language)
+    return partial(translate, language=language)
 
 
 @contextmanager

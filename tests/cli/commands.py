@@ -90,12 +90,12 @@ def errors_said() -> Iterator[list[LinkwrightError]]:
     said: list[LinkwrightError] = []
     depth = 0
 
-    def noted(say: Translate) -> Translate:
+    def noted(translate: Translate) -> Translate:
         def noting(error: LinkwrightError, language: str = "en") -> str:
             nonlocal depth
             depth += 1
             try:
-                return say(error, language)
+                return translate(error, language)
             finally:
                 depth -= 1
                 if depth == 0:
@@ -105,5 +105,5 @@ def errors_said() -> Iterator[list[LinkwrightError]]:
 
     with pytest.MonkeyPatch.context() as patch:
         for kind in (LinkwrightError, ModelError):
-            patch.setattr(kind, "say", noted(kind.say))
+            patch.setattr(kind, "say", noted(kind.translate))
         yield said

@@ -12,7 +12,7 @@ from tests.cli.machines import TEETH
 from tests.cli.tables import cells, numbers, rows, width
 from tests.every import every
 
-from linkwright.words import _, say
+from linkwright.words import _, translate
 
 PRESS, CONVEYOR = "gallery:slider_crank_offset", "gallery:swing_conveyor"
 CRANK, ROD, OFFSET = 0.198, 0.7025, 0.0605
@@ -111,7 +111,7 @@ def test_solve_does_not_warn_where_none_is_near() -> None:
 
 
 def in_words(kind: str, language: str) -> str:
-    return say(_(kind), language)
+    return translate(_(kind), language)
 
 
 def test_what_comes_at_every_turn_is_shown_a_few_times_and_counted(tmp_path: Path) -> None:

@@ -71,8 +71,8 @@ def test_every_kind_names_its_own_command_alone(kind: str, tmp_path: Path) -> No
         for language in ("en", "zh"):
             asked = [command, str(path), "--lang", language]
             told = is_refused(asked, "kind", ends=1, kind=kind, command=COMMANDS[kind])
-            assert told.say(language).count("linkwright ") == 1
-            assert f"linkwright {COMMANDS[kind]}" in told.say(language)
+            assert told.translate(language).count("linkwright ") == 1
+            assert f"linkwright {COMMANDS[kind]}" in told.translate(language)
 
 
 def test_a_kind_that_does_not_exist_is_told_with_those_that_do(tmp_path: Path) -> None:

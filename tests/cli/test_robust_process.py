@@ -21,7 +21,7 @@ CHECK = ["check", "gallery:kite"]
 COMMANDS = (CHECK, ["--help"], ["gallery", "show", "kite"], ["metrics", "gallery:kite", "--json"])
 #: What is said of an output that cannot be written, before the reason.
 LOST = f"{_('error')}: {_('the output cannot be written ({reason})', reason='')}".rstrip("()")
-INTERRUPTED = words.say(_("interrupted")) + "\n"
+INTERRUPTED = words.translate(_("interrupted")) + "\n"
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="streams and signals of POSIX systems")
 
@@ -66,7 +66,7 @@ def test_an_interrupt_at_any_time_ends_quietly(tmp_path: Path, wait: float) -> N
         process.send_signal(signal.SIGINT)
         _unused, said = process.communicate(timeout=60)
     kept = [
-        words.say(_("Interrupted; run the same command with --state {path} to go on.", path=left.name)) + "\n"
+        words.translate(_("Interrupted; run the same command with --state {path} to go on.", path=left.name)) + "\n"
         for left in tmp_path.iterdir()
     ]
     assert said in ("", INTERRUPTED, "".join([*kept, INTERRUPTED]))

@@ -125,4 +125,4 @@ def test_the_language_is_that_of_the_option_or_of_the_environment(monkeypatch: p
         ended = run(*slip, *arguments)
         assert ended.told is not None
         assert ended.err.startswith(head)
-        assert ended.told.say("en" if head == english else "zh") in ended.err
+        assert ended.told.translate("en" if head == english else "zh") in ended.err

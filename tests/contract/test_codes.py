@@ -67,7 +67,7 @@ def textual(node: ast.AST) -> bool:
         ('RequestError(_("nothing is asked"))', True),
         ('RequestError((_("one", code="a.b") if x else _("other")).format(x=1))', True),
         ('RequestError(_("nothing is asked", code="study.nothing"))', False),
-        ('UsageError(say("cli.bad_language", name=name))', True),
+        ('UsageError(translate("cli.bad_language", name=name))', True),
         ('UsageError(speaker(language)("cli.bad_language"))', True),
         ('UsageError(_("{name}: {cause}", name="--at", cause=error))', False),
         ('raise ValueError("the rows have other lengths")', False),

@@ -37,7 +37,7 @@ def test_why_a_dyad_is_not_assembled(solve, reason, missing):
     assert caught.value.values["reason"].code == reason
     if missing:
         assert caught.value.values["missing"] == missing
-    assert caught.value.say("zh") != str(caught.value)
+    assert caught.value.translate("zh") != str(caught.value)
 
 
 def test_what_is_no_number_point_line_mode_or_body():

@@ -265,7 +265,7 @@ def test_demands_that_make_no_sense_are_refused_in_both_languages(
 ) -> None:
     with refused(code, lw.SynthesisError, **values) as caught:
         lw.synthesize(task, **demands)
-    assert caught.value.say("zh") != str(caught.value)
+    assert caught.value.translate("zh") != str(caught.value)
 
 
 def test_nine_points_that_no_real_four_bar_passes_in_order() -> None:

@@ -122,7 +122,7 @@ def test_what_is_no_program_is_refused_with_place_and_remedy(
     with pytest.raises(ModelError) as caught:
         MotionProgram(segments)
     assert said(caught.value.findings, code, key, **values).remedy
-    assert caught.value.say("zh") != caught.value.say("en")
+    assert caught.value.translate("zh") != caught.value.translate("en")
 
 
 def test_both_jumps_of_a_saw_are_named() -> None:

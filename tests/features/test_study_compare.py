@@ -161,7 +161,7 @@ def test_alternatives_that_differ_in_load_or_speed_are_said_to_be_unlike() -> No
     assert {85000.0, 90000.0} <= set(numbers(note))
     (note,) = lw.compare([replace(crusher, name="a"), replace(faster, name="b")], steps=72).notes
     assert note.code == "compare.unlike_speeds"
-    assert numbers(note) == numbers(note.say("zh")) == [17.8024, 35.6047]
+    assert numbers(note) == numbers(note.translate("zh")) == [17.8024, 35.6047]
     tables = [
         loads(PRESS.replace("NAME", label).replace("CRANK", "0.1 m").replace(MOVING, f"table: {{{rows}}}}}"))
         for label, rows in (("flat", TABLE), ("steep", TABLE.replace("5 N", "6 N")))

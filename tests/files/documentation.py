@@ -51,7 +51,7 @@ def without_language(words: tuple[str, ...]) -> tuple[str, ...]:
 
 
 class _Unsaid(ast.NodeTransformer):
-    """Leaves out the language that is asked for: ``language="zh"``, ``text("zh")``, ``.say("zh")``."""
+    """Leaves out the language that is asked for: ``language="zh"``, ``text("zh")``, ``.translate("zh")``."""
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
         self.generic_visit(node)

@@ -95,7 +95,7 @@ def test_there_are_examples() -> None:
 def test_blocks_of_two_languages_are_alike_where_only_the_language_differs() -> None:
     english = parsed('lw.draw(motion, title="Press").save("a.svg")\nprint(error)  # told')
     for text, same in (
-        ('lw.draw(motion, title="压力机", language="zh").save("a.svg")\nprint(error.say("zh"))', True),
+        ('lw.draw(motion, title="压力机", language="zh").save("a.svg")\nprint(error.translate("zh"))', True),
         ('lw.draw(motion, title="压力机").save("b.svg")\nprint(error)', False),
         ('lw.draw(motion, title="压力机", at=1).save("a.svg")\nprint(error)', False),
         ('lw.draw(motion, title="压力机").save("a.svg")', False),

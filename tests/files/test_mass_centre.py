@@ -60,4 +60,4 @@ def test_it_is_written_as_it_was_read(tmp_path: Path) -> None:
 def test_a_point_of_another_link_is_refused_with_its_own(other: str) -> None:
     found = findings(NAMED.replace("mass_centre: S", f"mass_centre: {other}"))
     told = said(found, "unknown-name", "links.coupler.mass_centre", link="coupler", name=other)
-    assert all(point in told.say("en").split(f'"{other}"')[1] for point in ("B", "C", "S"))
+    assert all(point in told.translate("en").split(f'"{other}"')[1] for point in ("B", "C", "S"))

@@ -510,7 +510,7 @@ def test_what_is_no_cam_is_refused_with_place_and_remedy(
         parts.loads(text).solve()
     assert {each.key for each in caught.value.findings} == {key}
     assert all(each.remedy for each in caught.value.findings)
-    assert caught.value.findings[0].say("zh") != caught.value.findings[0].say("en")
+    assert caught.value.findings[0].translate("zh") != caught.value.findings[0].translate("en")
 
 
 def test_the_lift_has_the_followers_dimension() -> None:

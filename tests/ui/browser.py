@@ -30,11 +30,11 @@ class Worded:
     def __init__(self, tab: Any) -> None:
         self.tab = tab
 
-    def say(self, key: str, **values: str) -> str:
+    def translate(self, key: str, **values: str) -> str:
         """What the page says for a key of the catalogues (``page.undo``, ``studio.save``)."""
         script = """([key, values]) => {
           linkwright.words.language = linkwright.language.value;
-          return linkwright.words.say(key, values);
+          return linkwright.words.translate(key, values);
         }"""
         said: str = self.tab.evaluate(script, [key, values])
         return said
@@ -43,16 +43,16 @@ class Worded:
         """A sentence of the page with these values, and any others."""
         words: str = self.tab.evaluate("key => linkwright.data.words[linkwright.language.value][key]", key)
         names = re.findall(r"\{(\w+)\}", words)
-        said = self.say(key, **{name: values.get(name, "\0") for name in names})
+        said = self.translate(key, **{name: values.get(name, "\0") for name in names})
         return re.compile(re.escape(said).replace("\0", ".*"), re.DOTALL)
 
     def button(self, key: str, **values: str) -> Any:
         """The first button with the words of a key."""
-        return self.tab.get_by_role("button", name=self.say(key, **values), exact=True).first
+        return self.tab.get_by_role("button", name=self.translate(key, **values), exact=True).first
 
     def labelled(self, key: str, **values: str) -> Any:
         """The element with the label of a key."""
-        return self.tab.get_by_label(self.say(key, **values), exact=True)
+        return self.tab.get_by_label(self.translate(key, **values), exact=True)
 
     def turn_over(self) -> None:
         """Chooses the other language."""

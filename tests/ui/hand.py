@@ -54,7 +54,7 @@ class Hand(Worded):
 
     def tool(self, key: str, value: str = "") -> None:
         """Takes a tool, with a value."""
-        name = self.say(f"studio.{key}")
+        name = self.translate(f"studio.{key}")
         self.tab.get_by_role("toolbar").get_by_role("button", name=name, exact=True).click()
         if value:
             self.labelled("studio.value").fill(value)

@@ -78,7 +78,7 @@ def misfit(opened: Opened) -> list[str]:
     """The meshes that do not fit where a change stopped; the page names them."""
     wall = opened.wall()
     assert wall is not None
-    assert opened.say("page.misfit", names=", ".join(wall["group"]["wheels"])) in opened.status
+    assert opened.translate("page.misfit", names=", ".join(wall["group"]["wheels"])) in opened.status
     return list(wall["group"]["wheels"])
 
 
@@ -250,7 +250,7 @@ def test_friction_is_solved_again(opened: Opened, tmp_path: Path) -> None:
     assert opened.tab.locator(".results .hint").count() == 0
     opened.run("s => { for (const term of s.data.friction) term.arm *= 400; s.take({...s.model.values}); }")
     assert opened.run("s => s.model.row('effort:driver').every(Number.isNaN)")
-    assert opened.notes == [opened.say("page.locking")]
+    assert opened.notes == [opened.translate("page.locking")]
 
 
 #: A ramp between limits of a followed group, a table over the input.
@@ -460,7 +460,7 @@ def test_machines_side_by_side(opened: Opened, tmp_path: Path) -> None:
     opened.run(
         "s => { s.keep(); s.take({...s.model.values, 'crank.length': 0.8 * s.model.values['crank.length']}); }"
     )
-    column = opened.tab.get_by_role("columnheader", name=opened.say("page.kept", number="1"))
+    column = opened.tab.get_by_role("columnheader", name=opened.translate("page.kept", number="1"))
     assert column.count() == 1
 
 

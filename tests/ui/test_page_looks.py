@@ -89,7 +89,7 @@ def test_title_and_purpose_follow_the_language(opened: Opened, tmp_path: Path) -
 def test_paper_has_no_controls(window: Opened) -> None:
     """What is printed has dimensions, curves and numbers, and nothing that can only be clicked."""
     window.open(page("crank_rocker"))
-    window.tab.locator("summary", has_text=window.say("page.show")).click()
+    window.tab.locator("summary", has_text=window.translate("page.show")).click()
     window.tab.locator(".checks").first.wait_for()
     window.tab.emulate_media(media="print")
     for each in ("header", ".tools", ".checks", ".choice", ".lock", ".more"):

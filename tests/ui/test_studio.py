@@ -49,7 +49,7 @@ def test_a_fourbar_drawn_from_nothing(chromium: Any, tmp_path: Path) -> None:
         drawn.tool("mass")
         drawn.click((0.615, 0.475))
         drawn.settle()
-        assert drawn.say("studio.mobility", value="1") in drawn.tab.locator(".status").inner_text()
+        assert drawn.translate("studio.mobility", value="1") in drawn.tab.locator(".status").inner_text()
         drawn.press("studio.run")
         drawn.tab.wait_for_selector(".plot")
         shown = drawn.tab.locator(".plot select").evaluate_all("all => all.map(each => each.value)")
@@ -169,9 +169,9 @@ def test_an_optimisation_from_the_studio_writes_its_design_into_the_file(chromiu
     (tmp_path / "a.yaml").write_text(text, encoding="utf-8")
     with hand(chromium, tmp_path, "a.yaml", bypass_csp=True) as drawn:
         tab = drawn.tab
-        tab.locator("summary", has_text=drawn.say("studio.optimize")).click()
+        tab.locator("summary", has_text=drawn.translate("studio.optimize")).click()
         drawn.labelled("studio.add_dimension").select_option("coupler.length")
-        tab.get_by_role("button", name=f"+ {drawn.say('studio.add_goal')}").click()
+        tab.get_by_role("button", name=f"+ {drawn.translate('studio.add_goal')}").click()
         drawn.labelled("studio.goals").and_(tab.locator("select")).select_option("maximize")
         drawn.labelled("studio.number_name").fill("transmission_angle")
         drawn.press("studio.begin")
@@ -337,7 +337,7 @@ def test_a_drag_that_the_file_refuses_goes_back_and_keys_undo_text(chromium: Any
     with hand(chromium, tmp_path, "a.yaml") as drawn:
         tab = drawn.tab
         drawn.solved()
-        tab.locator("summary", has_text=drawn.say("page.show")).click()
+        tab.locator("summary", has_text=drawn.translate("page.show")).click()
         tab.evaluate("() => (window.before = desk.session.value, null)")
         # A number that no file takes.
         tab.evaluate("() => before.data.dimensions.find(d => d.address === 'frame.O2.x').written[3] = ' xx'")
@@ -371,7 +371,7 @@ def test_a_drag_that_the_file_refuses_goes_back_and_keys_undo_text(chromium: Any
         drawn.tells("studio.placed", name="B")
         drawn.area.fill(GEARED + "# mine")
         drawn.solved()
-        tab.locator("details[open] > summary", has_text=drawn.say("page.show")).wait_for()
+        tab.locator("details[open] > summary", has_text=drawn.translate("page.show")).wait_for()
 
 
 def test_saving_asks_before_it_overwrites(chromium: Any, tmp_path: Path) -> None:
@@ -385,7 +385,7 @@ def test_saving_asks_before_it_overwrites(chromium: Any, tmp_path: Path) -> None
         drawn.solved()
         name.fill("b.yaml")
         drawn.press("studio.save")
-        banner.get_by_text(drawn.say("studio.there_already", name="b.yaml")).wait_for()
+        banner.get_by_text(drawn.translate("studio.there_already", name="b.yaml")).wait_for()
         assert (tmp_path / "b.yaml").read_text() == "# another machine\n"
         name.fill("c")
         drawn.press("studio.save")
@@ -394,7 +394,7 @@ def test_saving_asks_before_it_overwrites(chromium: Any, tmp_path: Path) -> None
         with serving(tmp_path) as other:
             assert not asked(other, "open", {"name": "a.yaml"})[1]["recovered"]
         (tmp_path / "c.yaml").write_bytes((GEARED + "# theirs").replace("\n", "\r\n").encode())
-        take = banner.get_by_role("button", name=drawn.say("studio.take_theirs"))
+        take = banner.get_by_role("button", name=drawn.translate("studio.take_theirs"))
         coming: list[Any] = []
         tab.route("**/api/disk", lambda route, _: coming.append(route), times=1)
         with tab.expect_request("**/api/disk"):
@@ -434,7 +434,7 @@ def test_findings_stand_at_their_lines_and_two_windows_notice_each_other(chromiu
         first.area.fill(text.replace("length: 3.5 m", "length: 3.5 mm m"))
         first.tab.wait_for_selector(".findings .error")
         marked = first.tab.locator(".findings .error button").first
-        assert marked.inner_text() == first.say("studio.line", line=str(line))
+        assert marked.inner_text() == first.translate("studio.line", line=str(line))
         first.area.fill(text.replace("length: 3.5 m", "length: 3.4 m") + "# shorter\n")
         first.tab.wait_for_selector(".handle")
         second.tab.goto(studio.url)

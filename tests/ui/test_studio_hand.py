@@ -122,7 +122,7 @@ def test_a_new_drawing_saved_under_the_name_of_the_first_keeps_both(chromium: An
         second = drawn.text
         drawn.labelled("studio.name").fill("machine.yaml")
         drawn.press("studio.save")
-        asks = drawn.say("studio.there_already", name="machine.yaml")
+        asks = drawn.translate("studio.there_already", name="machine.yaml")
         drawn.tab.locator(".banner", has_text=asks).wait_for()
         assert not list(tmp_path.glob("*.yaml"))
         drawn.press("studio.overwrite")
@@ -133,7 +133,7 @@ def test_a_new_drawing_saved_under_the_name_of_the_first_keeps_both(chromium: An
         drawn.press("studio.save")
         drawn.tells("studio.saved")
         assert (tmp_path / "machine3.yaml").read_text() == first
-        saved = drawn.say("studio.saved")
+        saved = drawn.translate("studio.saved")
         drawn.turn_over()
         drawn.tab.wait_for_function("said => document.querySelector('.said').textContent !== said", arg=saved)
 
@@ -165,7 +165,7 @@ def test_a_file_that_two_windows_have_changed_is_not_left_before_one_text_is_cho
     with hand(chromium, tmp_path, "a.yaml") as drawn, serving(tmp_path) as other:
         assert asked(other, "keep", theirs)[0] == 200
         drawn.tab.locator("textarea").fill(FOURBAR + "# mine\n")
-        drawn.tab.locator(".banner", has_text=drawn.say("studio.elsewhere")).wait_for()
+        drawn.tab.locator(".banner", has_text=drawn.translate("studio.elsewhere")).wait_for()
         drawn.labelled("studio.open").select_option("b.yaml")
         drawn.tab.wait_for_timeout(300)
         assert drawn.text == FOURBAR + "# mine\n"

@@ -40,7 +40,7 @@ def remarks(language: str) -> Iterator[str]:
     """The findings of the corpus in a language, behind their codes."""
     for each in findings():
         told = Finding(each.severity, "", "", each.message, each.remedy)
-        yield f"[{each.code}] {told.say(language)}"
+        yield f"[{each.code}] {told.translate(language)}"
 
 
 @cache
@@ -57,7 +57,7 @@ def refusals(calls: list[str], language: str) -> Iterator[str]:
     """The errors in which calls end in a language, behind their codes."""
     for call in calls:
         error = raised(call)
-        yield f"[{error.code}] {error.say(language)}"
+        yield f"[{error.code}] {error.translate(language)}"
 
 
 def results(calls: list[str], language: str) -> Iterator[str]:
@@ -71,7 +71,7 @@ def _said(value: object, language: str) -> Iterator[str]:
         for each in value:
             yield from _said(each, language)
     elif hasattr(value, "say"):
-        yield value.say(language)
+        yield value.translate(language)
     elif hasattr(value, "text"):
         yield value.text(language)
     else:

@@ -26,10 +26,10 @@ RATES = {
 }
 
 
-def blocks(design: CamDesign, say: Translate) -> list[Block]:
+def blocks(design: CamDesign, translate: Translate) -> list[Block]:
     """Sizes, motion, shape, forces and vibration, as far as they apply."""
     makers: list[Callable[[CamDesign, Translate], Block | None]] = [_sizes, _motion, _shape, _forces, _vibration]
-    return [block for make in makers if (block := make(design, say)) is not None]
+    return [block for make in makers if (block := make(design, translate)) is not None]
 
 
 def at(place: float) -> Message:
@@ -37,7 +37,7 @@ def at(place: float) -> Message:
     return _("at {place}°", place=f"{math.degrees(place) % 360:.6g}")
 
 
-def _sizes(design: CamDesign, say: Translate) -> Block:
+def _sizes(design: CamDesign, translate: Translate) -> Block:
     cam, follower = design.cam, design.cam.follower
     rows: list[Row] = []
     if cam.barrel_radius is not None:
@@ -67,7 +67,7 @@ def _sizes(design: CamDesign, say: Translate) -> Block:
     return Block("sizes", _("Sizes"), rows)
 
 
-def _motion(design: CamDesign, say: Translate) -> Block:
+def _motion(design: CamDesign, translate: Translate) -> Block:
     program, speed = design.cam.program, design.loading.speed
     kinds = RATES[design.cam.follower.lift_dimension]
     rows = [Row("lift", program.lifts[1] - program.lifts[0], kinds[0])]
@@ -78,16 +78,16 @@ def _motion(design: CamDesign, say: Translate) -> Block:
                 rows.append(Row(f"{word}_{key}", extreme.value * speed**order, kinds[order], note=at(extreme.place)))
             else:
                 unit = ("rad" if kinds[0] == "angle" else "m") + ("/rad", "/rad²")[order - 1]
-                label = f"{say(LABELS[f'{word}_{key}'])} ({unit})"
+                label = f"{translate(LABELS[f'{word}_{key}'])} ({unit})"
                 rows.append(Row(f"{word}_{key}", extreme.value, "", label, at(extreme.place)))
-    return Block("motion", _("Motion"), rows, _remarks(design, say))
+    return Block("motion", _("Motion"), rows, _remarks(design, translate))
 
 
-def _remarks(design: CamDesign, say: Translate) -> list[Message]:
+def _remarks(design: CamDesign, translate: Translate) -> list[Message]:
     """Junctions where something jumps; what binds a program that was found."""
     program = design.cam.program
     if isinstance(program, FoundProgram):
-        named = ", ".join(in_language(each.what, language_of(say)) for each in program.binding) or "–"
+        named = ", ".join(in_language(each.what, language_of(translate)) for each in program.binding) or "–"
         return [_("What keeps it from being smoother: {names}.", names=named)]
     if not isinstance(program, MotionProgram):
         return []
@@ -100,7 +100,7 @@ def _remarks(design: CamDesign, say: Translate) -> list[Message]:
     return found
 
 
-def _shape(design: CamDesign, say: Translate) -> Block:
+def _shape(design: CamDesign, translate: Translate) -> Block:
     rows = []
     flat = design.cam.follower.kind == "flat" and not design.cam.follower.oscillating
     if not flat:
@@ -150,7 +150,7 @@ def _broken_limits(design: CamDesign) -> list[Message]:
     return found
 
 
-def _forces(design: CamDesign, say: Translate) -> Block | None:
+def _forces(design: CamDesign, translate: Translate) -> Block | None:
     if not design.loaded or design.cam.barrel_radius is not None:
         return None
     turning = design.cam.follower.oscillating
@@ -195,7 +195,7 @@ def _weak_spring(design: CamDesign) -> list[Message]:
     ]
 
 
-def _vibration(design: CamDesign, say: Translate) -> Block | None:
+def _vibration(design: CamDesign, translate: Translate) -> Block | None:
     cam, speed = design.cam, design.loading.speed
     if cam.elasticity is None or not design.loading.mass or not speed:
         return None
@@ -209,10 +209,10 @@ def _vibration(design: CamDesign, say: Translate) -> Block | None:
     return Block("vibration", _("Vibration"), rows)
 
 
-def steps(design: CamDesign, say: Translate) -> list[Step]:
+def steps(design: CamDesign, translate: Translate) -> list[Step]:
     """Start position, pressure angle and curvature with their formulas and numbers."""
     cam, follower = design.cam, design.cam.follower
-    first = Step("1", say(_("Start position")))
+    first = Step("1", translate(_("Start position")))
     base = cam.base_radius or 0.0
     if cam.barrel_radius is not None:
         first.law("x = R·φ; y = s(φ)")
@@ -232,19 +232,19 @@ def steps(design: CamDesign, say: Translate) -> list[Step]:
     else:
         of = {"r_b": (base, "length"), "r_r": (follower.roller_radius, "length"), "e": (follower.offset, "length")}
         first.put("d", "√((r_b + r_r)² − e²)", follower.start_height(base) or 0.0, "length", of=of)
-    second = Step("2", say(_("Pressure angle")))
+    second = Step("2", translate(_("Pressure angle")))
     steepest = sorted((design.pressure_angle_rise, design.pressure_angle_fall), key=lambda each: each.place)
     extreme = steepest[first_largest(np.abs([each.value for each in steepest]))]
     formula, numbers = _angle_formula(design, extreme.place)
     second.put(f"α({math.degrees(extreme.place):.5g}°)", formula, extreme.value, "angle", numbers=numbers)
-    third = Step("3", say(_("Radius of curvature")))
+    third = Step("3", translate(_("Radius of curvature")))
     radius = design.smallest_radius
     if radius is not None:
         formula = "H + d²H/dθ²" if follower.kind == "flat" else "|p′|³/|p′ × p″| − r_r"
         third.put(f"ρ({math.degrees(radius.place):.5g}°)", formula, radius.value, "length")
     if not design.loaded:
         return [first, second, third]
-    fourth = Step("4", say(_("Contact force and torque")))
+    fourth = Step("4", translate(_("Contact force and torque")))
     fourth.law(f"F = m·ω²·s″ + F₀ + k·s + F_l; {_normal_force(design)}; T = F·s′")
     fourth.put("N_max", "", design.extreme_force("max").value, "force")
     fourth.put("T_max", "", design.extreme_torque("max").value, "torque")

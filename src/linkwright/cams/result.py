@@ -348,11 +348,11 @@ class CamDesign(Result):
         return found
 
     @attached
-    def blocks(self, say: Translate) -> list[Block]:
+    def blocks(self, translate: Translate) -> list[Block]:
         raise NotImplementedError
 
     @attached
-    def steps(self, say: Translate) -> list[Step]:
+    def steps(self, translate: Translate) -> list[Step]:
         raise NotImplementedError
 
     # vibration ----------------------------------------------------------------------------

@@ -149,7 +149,7 @@ def cycle(mechanism: Mechanism, steps: int, session: Session) -> Motion:
     if failed and failed < motion.steps:
         first = next(each for each in motion.outcomes if not each.ok)
         session.tell(
-            session.say(
+            session.translate(
                 _(
                     "note: {count} of {of} positions cannot be reached and are left out; the first: {sentence}",
                     count=failed,
@@ -200,7 +200,7 @@ def cycles(files: Sequence[str], steps: int, session: Session) -> dict[str, Moti
             if report is not None:
                 report(done, len(files))
     for note in notes:
-        session.tell(session.say(note))
+        session.tell(session.translate(note))
     return found
 
 

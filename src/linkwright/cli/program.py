@@ -84,7 +84,7 @@ class Program(click.Group):
         page = help_page(
             ctx, _("linkwright COMMAND [options]"), _("Linkwright: analysis and design of planar machines."), sections
         )
-        return f"{page}\n\n{ctx.obj.say(_('linkwright COMMAND --help explains a command, with examples.'))}"
+        return f"{page}\n\n{ctx.obj.translate(_('linkwright COMMAND --help explains a command, with examples.'))}"
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
         """Commands and options that complete a word, with their help in the language of the session."""
@@ -108,7 +108,7 @@ def _print_versions(session: Session) -> None:
             "living pages do not run (pip install llvmlite)"
         )
     )
-    session.show(session.say(first), session.say(second))
+    session.show(session.translate(first), session.translate(second))
 
 
 def _version_of(package: str) -> str | None:
@@ -129,7 +129,7 @@ def _show_version(ctx: click.Context, param: click.Parameter, value: bool) -> No
 def _welcome(**_values: Any) -> int:
     ctx = click.get_current_context()
     if ctx.invoked_subcommand is None:
-        ctx.obj.show(ctx.obj.say(WELCOME))
+        ctx.obj.show(ctx.obj.translate(WELCOME))
     return FINE
 
 
@@ -179,19 +179,19 @@ def run(argv: Sequence[str]) -> int:
         return FINE
     except OutputError as error:
         _discard_output()
-        session.tell_error(error.say(session.language))
+        session.tell_error(error.translate(session.language))
         return FAULTY
     except KeyboardInterrupt:
-        session.tell(session.say(_("interrupted")))
+        session.tell(session.translate(_("interrupted")))
         return INTERRUPTED
     except LinkwrightError as error:
         return _refused(error, session)
     except MemoryError:
-        session.tell_error(session.say(_("there is not enough memory for this; ask for fewer steps")))
+        session.tell_error(session.translate(_("there is not enough memory for this; ask for fewer steps")))
         return FAULTY
     except Exception as error:
         if _caused_by_interrupt(error):
-            session.tell(session.say(_("interrupted")))
+            session.tell(session.translate(_("interrupted")))
             return INTERRUPTED
         return _unexpected(error, session)
 
@@ -216,7 +216,7 @@ def _refused(error: LinkwrightError, session: Session) -> int:
     """Reports what is wrong; with ``--json`` as data as well."""
     misused = isinstance(error, RequestError)
     missing = isinstance(error, ModelError) and all(found.code in NO_FILE for found in error.findings)
-    text = error.say(session.language)
+    text = error.translate(session.language)
     (session.tell if isinstance(error, ModelError) and not misused else session.tell_error)(text)
     if session.json:
         findings = [found.data() for found in getattr(error, "findings", ())]
@@ -230,7 +230,7 @@ def _unexpected(error: Exception, session: Session) -> int:
 
         traceback.print_exception(error)
     message = " ".join(str(error).split())
-    sentence = session.say(
+    sentence = session.translate(
         _(
             "this should not have happened ({kind}: {message}); please report it with the "
             "command and the model file; --debug shows where it arose",

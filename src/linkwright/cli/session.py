@@ -31,10 +31,12 @@ _SIDES: dict[str, Literal["left", "right", "center"]] = {"<": "left", ">": "righ
 
 
 class Session:
-    """``say`` gives words in the chosen language, ``json`` asks for data, ``debug`` for tracebacks."""
+    """``translate`` gives words in the chosen language, ``json`` asks for data, ``debug`` for tracebacks."""
 
-    def __init__(self, say: Translate, language: str = "en", *, json: bool = False, debug: bool = False) -> None:
-        self.say, self.language, self.json, self.debug = say, language, json, debug
+    def __init__(
+        self, translate: Translate, language: str = "en", *, json: bool = False, debug: bool = False
+    ) -> None:
+        self.translate, self.language, self.json, self.debug = translate, language, json, debug
 
     @cached_property
     def output(self) -> Console:
@@ -94,7 +96,7 @@ class Session:
             return
         for path in paths:
             if path is not None:
-                self.show("\n" * spaced + self.say(_("written: {path}", path=path)))
+                self.show("\n" * spaced + self.translate(_("written: {path}", path=path)))
 
     def flush(self) -> None:
         """Flushes the standard output; raises OutputError where that fails."""
@@ -109,8 +111,8 @@ class Session:
 
     def tell_error(self, sentence: str) -> None:
         """Prints an error to the standard error."""
-        head = self.say(_("error"))
-        styled = Text(terminal_text(self.say(_("{head}: {sentence}", head=head, sentence=sentence))))
+        head = self.translate(_("error"))
+        styled = Text(terminal_text(self.translate(_("{head}: {sentence}", head=head, sentence=sentence))))
         styled.stylize(STYLES["error"], 0, len(head))
         self.tell(styled)
 
@@ -121,7 +123,7 @@ class Session:
 
     def finding(self, found: Finding) -> Text:
         """A finding in the chosen language: the place bold, the rest by its severity."""
-        styled = Text(terminal_text(found.say(self.language)))
+        styled = Text(terminal_text(found.translate(self.language)))
         place = "".join(f"{part}: " for part in (found.where, found.key) if part)
         styled.stylize("bold", 0, len(place.rstrip()))
         styled.stylize(STYLES[found.severity], len(place))
@@ -211,7 +213,7 @@ def progress(session: Session, what: Message) -> Iterator[Progress | None]:
 
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Bar(*columns, console=console, transient=True, redirect_stdout=False) as bar:
-        task = bar.add_task(session.say(what), total=None)
+        task = bar.add_task(session.translate(what), total=None)
 
         def report(done: int, total: int) -> None:
             if done < bar.tasks[0].completed:  # the next one of several pieces of work
@@ -238,5 +240,5 @@ def resumable(state: str | None, name: str, inputs: Iterable[object], session: S
         ):
             yield report
     except Interrupted as stopped:
-        session.tell(session.say(RESUME.format(path=stopped.state)))
+        session.tell(session.translate(RESUME.format(path=stopped.state)))
         raise

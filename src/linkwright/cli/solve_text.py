@@ -33,17 +33,17 @@ POINT = tuple(f"{kind}.{axis}" for kind in ("position", "velocity", "acceleratio
 
 def report(solved: Solved, options: Options, session: Session) -> list[str | Text]:
     """Lines of heading, table, largest forces, checks, notes and warnings."""
-    say, degrees = session.say, not options.si
-    lines: list[str | Text] = [bold(solved.motion.mechanism.name), _structure_line(solved, say)]
-    lines += turned_against(solved.motion.structure, say)
+    translate, degrees = session.translate, not options.si
+    lines: list[str | Text] = [bold(solved.motion.mechanism.name), _structure_line(solved, translate)]
+    lines += turned_against(solved.motion.structure, translate)
     for paragraph in (
         *_table(solved, options, session),
-        _extremes(solved, say, degrees=degrees),
-        _checks(solved, say),
+        _extremes(solved, translate, degrees=degrees),
+        _checks(solved, translate),
         styled_lines(closeness(solved.motion, session.language)),
-        _failures(solved, say, session.language, degrees=degrees),
-        [say(_("Note: {text}", text=in_language(note, session.language))) for note in solved.notes],
-        [say(_("Note: {text}", text=solved.proof.explain(session.language)))] if options.prove else [],
+        _failures(solved, translate, session.language, degrees=degrees),
+        [translate(_("Note: {text}", text=in_language(note, session.language))) for note in solved.notes],
+        [translate(_("Note: {text}", text=solved.proof.explain(session.language)))] if options.prove else [],
         [session.finding(finding) for finding in solved.warnings],
     ):
         lines += ["", *paragraph] if paragraph else []
@@ -64,13 +64,13 @@ def _table(solved: Solved, options: Options, session: Session) -> tuple[list[Tex
     if not solved.motion.inputs and not options.columns:
         return [], []
     shown, left_out = _chosen(solved, options, session)
-    lines = table(_headed(shown, solved, session.say), session.say)
+    lines = table(_headed(shown, solved, session.translate), session.translate)
     return styled_lines(lines, heads=len(lines) - len(solved.rows)), [left_out] if left_out else []
 
 
-def _structure_line(solved: Solved, say: Translate) -> str:
+def _structure_line(solved: Solved, translate: Translate) -> str:
     structure = solved.motion.structure
-    return say(_("mobility {mobility}: {chain}", mobility=structure.mobility, chain=structure.chain))
+    return translate(_("mobility {mobility}: {chain}", mobility=structure.mobility, chain=structure.chain))
 
 
 def _chosen(solved: Solved, options: Options, session: Session) -> tuple[list[Column], str]:
@@ -96,15 +96,15 @@ def _fitted(
     ranked = blocks(solved, columns, asked)
     minimum = max(len(asked), 1)
     ranked = [*ranked[:minimum], *([last] if last else []), *ranked[minimum:]]
-    kept = fitting(first, ranked, session.width, session.say, minimum=minimum)
+    kept = fitting(first, ranked, session.width, session.translate, minimum=minimum)
     names = {column.name for block in kept for column in block}
     efforts_shown = [column for column in last if column.name in names]
     shown = [column for column in columns.values() if column.name in names and column.quantity != "effort"]
     left = list(dict.fromkeys(block[0].owner for block in ranked if block[0].name not in names))
     if not left:
         return [*first, *shown, *efforts_shown], ""
-    names_left = session.say(_(", ")).join(left)
-    sentence = session.say(
+    names_left = session.translate(_(", ")).join(left)
+    sentence = session.translate(
         _(
             'Left out for width: {names}. See them with --columns "{one}.*"; --output FILE.csv '
             "writes all {total} columns.",
@@ -116,15 +116,17 @@ def _fitted(
     return [*first, *shown, *efforts_shown], sentence
 
 
-def _headed(columns: Sequence[Column], solved: Solved, say: Translate) -> list[Column]:
+def _headed(columns: Sequence[Column], solved: Solved, translate: Translate) -> list[Column]:
     """Columns with the words that the reader sees for drivers and time."""
     inputs = solved.motion.inputs
     found = []
     for column in columns:
         if column.name in inputs:
-            column = replace(column, owner=say(_("input")), quantity="" if len(inputs) == 1 else column.name)
+            column = replace(column, owner=translate(_("input")), quantity="" if len(inputs) == 1 else column.name)
         elif column.quantity == "effort" and len(inputs) == 1:
-            column = replace(column, owner=say(_("driver")), quantity="torque" if "m" in column.unit else "force")
+            column = replace(
+                column, owner=translate(_("driver")), quantity="torque" if "m" in column.unit else "force"
+            )
         found.append(column)
     return found
 
@@ -173,13 +175,13 @@ def _ranked_links(mechanism: Mechanism, structure: Structure) -> list[str]:
 
 
 def fitting(
-    fixed: Sequence[Column], blocks: Sequence[Sequence[Column]], width: int, say: Translate, *, minimum: int
+    fixed: Sequence[Column], blocks: Sequence[Sequence[Column]], width: int, translate: Translate, *, minimum: int
 ) -> list[list[Column]]:
     """The first blocks (columns that belong together) that fit next to the fixed ones; at least ``minimum``."""
-    used = total_width(fixed, say)
+    used = total_width(fixed, translate)
     chosen: list[list[Column]] = []
     for block in blocks:
-        wide = len(GAP) + total_width(block, say)
+        wide = len(GAP) + total_width(block, translate)
         if len(chosen) >= minimum and used + wide > width:
             break
         used += wide
@@ -187,9 +189,9 @@ def fitting(
     return chosen
 
 
-def total_width(columns: Sequence[Column], say: Translate) -> int:
+def total_width(columns: Sequence[Column], translate: Translate) -> int:
     """Cells that columns take side by side, under their owners and words."""
-    widths = _widths(columns, say)
+    widths = _widths(columns, translate)
     _owner_line(columns, widths)
     return sum(widths) + len(GAP) * (len(widths) - 1)
 
@@ -221,20 +223,22 @@ QUANTITIES: dict[str, str] = {
 }
 
 
-def _widths(columns: Sequence[Column], say: Translate) -> list[int]:
-    return [max(cells(text) for text in [*column.cells(), label(column, say), column.unit]) for column in columns]
+def _widths(columns: Sequence[Column], translate: Translate) -> list[int]:
+    return [
+        max(cells(text) for text in [*column.cells(), label(column, translate), column.unit]) for column in columns
+    ]
 
 
-def label(column: Column, say: Translate) -> str:
+def label(column: Column, translate: Translate) -> str:
     """What a column is called under its owner's name."""
-    return in_language(QUANTITIES.get(column.quantity, column.quantity), language_of(say))
+    return in_language(QUANTITIES.get(column.quantity, column.quantity), language_of(translate))
 
 
-def table(columns: Sequence[Column], say: Translate) -> list[str]:
+def table(columns: Sequence[Column], translate: Translate) -> list[str]:
     """Lines of the table: owners, quantities, units, values."""
-    labels = [label(column, say) for column in columns]
+    labels = [label(column, translate) for column in columns]
     cells = [column.cells() for column in columns]
-    widths = _widths(columns, say)
+    widths = _widths(columns, translate)
     owners = _owner_line(columns, widths)
     lines = [owners] if owners.strip() else []
     for row in [labels, [column.unit for column in columns], *zip(*cells, strict=True)]:
@@ -269,7 +273,7 @@ def _ruled(text: str, span: int) -> str:
     return "─" * (space // 2) + text + "─" * (space - space // 2)
 
 
-def _extremes(solved: Solved, say: Translate, *, degrees: bool) -> list[str]:
+def _extremes(solved: Solved, translate: Translate, *, degrees: bool) -> list[str]:
     """The largest force in every joint and the range of every driver's effort.
 
     Over the whole cycle these are found between the positions, as the metrics are; of chosen positions, or of
@@ -301,27 +305,27 @@ def _extremes(solved: Solved, say: Translate, *, degrees: bool) -> list[str]:
         "that, along the guide, comes on top: {names}",
         names=rubbing,
     )
-    notes = [*([guides] if rubbing else []), *_efforts(solved, forces, say, degrees=degrees)]
-    return Table((), [row[:wide] for row in rows], "<<>>>>", title, notes).lines(language_of(say))
+    notes = [*([guides] if rubbing else []), *_efforts(solved, forces, translate, degrees=degrees)]
+    return Table((), [row[:wide] for row in rows], "<<>>>>", title, notes).lines(language_of(translate))
 
 
-def _efforts(solved: Solved, forces: Forces, say: Translate, *, degrees: bool) -> list[str]:
+def _efforts(solved: Solved, forces: Forces, translate: Translate, *, degrees: bool) -> list[str]:
     """Largest, smallest and mean effort of every driver; the mean over a closed cycle counts its end once."""
     rows = []
     for key, driver in forces.mechanism.drivers.items():
         values = forces.driver_effort(key)
-        name = key if len(forces.mechanism.drivers) > 1 else say(_("driver"))
+        name = key if len(forces.mechanism.drivers) > 1 else translate(_("driver"))
         if not np.isfinite(values).any():
             continue
         unit = "N·m" if forces.mechanism.joints[driver.joint].coordinate == "turn" else "N"
         number = Column("", "", unit, values, solved.force_scale).text
         if len(values) == 1:
-            rows.append(say(_("{name}: {value} {unit}", name=name, value=number(values[0]), unit=unit)))
+            rows.append(translate(_("{name}: {value} {unit}", name=name, value=number(values[0]), unit=unit)))
             continue
         effort = partial(Forces.driver_effort, name=key)
         high, low = extremes_of(solved, [(effort, "max"), (effort, "min")], degrees)
         at = _("at {place}")
-        sentence = say(
+        sentence = translate(
             _(
                 "{name}: from {low} {unit} {low_at} to {high} {unit} {high_at}",
                 name=name,
@@ -333,12 +337,12 @@ def _efforts(solved: Solved, forces: Forces, say: Translate, *, degrees: bool) -
             )
         )
         if solved.between and solved.motion.positions.closed:
-            sentence += say(_(", mean {mean} {unit}", mean=number(solved.analysis.mean_of(effort)), unit=unit))
+            sentence += translate(_(", mean {mean} {unit}", mean=number(solved.analysis.mean_of(effort)), unit=unit))
         rows.append(sentence)
     return rows
 
 
-def _checks(solved: Solved, say: Translate) -> list[str]:
+def _checks(solved: Solved, translate: Translate) -> list[str]:
     """The residuals that belong to the forces."""
     forces = solved.forces
     if forces is None or not solved.motion.ok.any():
@@ -347,7 +351,7 @@ def _checks(solved: Solved, say: Translate) -> list[str]:
     lines = []
     if forces.mechanism.drivers:
         lines.append(
-            say(
+            translate(
                 _(
                     "Check: driver power from joint forces and from all powers differ by {residual} W at "
                     "most (of {size} W)",
@@ -358,7 +362,7 @@ def _checks(solved: Solved, say: Translate) -> list[str]:
         )
     size = solved.force_scale
     lines.append(
-        say(
+        translate(
             _(
                 "Check: forces on every link balance within {residual} N (of {size} N)",
                 residual=f"{largest(forces.balance_residual):.1e}",
@@ -369,16 +373,16 @@ def _checks(solved: Solved, say: Translate) -> list[str]:
     return lines
 
 
-def _failures(solved: Solved, say: Translate, language: str, *, degrees: bool) -> list[str]:
+def _failures(solved: Solved, translate: Translate, language: str, *, degrees: bool) -> list[str]:
     """Stretches of positions that are not reached, each with the sentence of its first position."""
     ok = solved.motion.ok
     failed = np.flatnonzero(~ok)
     if not len(failed):
         return []
-    lines = [say(_("Not reached: {count} of {of} positions", count=len(failed), of=len(ok)))]
+    lines = [translate(_("Not reached: {count} of {of} positions", count=len(failed), of=len(ok)))]
     outcomes = solved.motion.outcomes
     for run in np.split(failed, np.flatnonzero(np.diff(failed) > 1) + 1):
         first, last = (input_text(solved.motion, int(place), degrees=degrees) for place in (run[0], run[-1]))
         where = first if first == last else f"{first} … {last}"
-        lines.append(f"  {where}: {outcomes[int(run[0])].say(language)}")
+        lines.append(f"  {where}: {outcomes[int(run[0])].translate(language)}")
     return lines

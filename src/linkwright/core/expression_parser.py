@@ -39,9 +39,9 @@ class ExpressionError(QuantityError):
         self.text = text
         super().__init__(message, remedy, column=column, code=code)
 
-    def say(self, language: str = "en") -> str:
+    def translate(self, language: str = "en") -> str:
         """The message in a language, the text, and a caret under the place."""
-        return f"{super().say(language)}\n  {self.text}\n  {' ' * self.column}^"
+        return f"{super().translate(language)}\n  {self.text}\n  {' ' * self.column}^"
 
 
 class Parser:

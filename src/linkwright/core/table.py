@@ -437,7 +437,7 @@ class Numbers(Tabular):
         """What the result is of."""
 
     @abstractmethod
-    def blocks(self, say: Translate) -> list[Block]:
+    def blocks(self, translate: Translate) -> list[Block]:
         """The numbers, with titles and remarks in a language."""
 
     def notes(self, language: str = "en") -> list[str]:

@@ -87,7 +87,7 @@ class Grades(Tabular, Sequence[Grade]):
 
     def tables(self, language: str = "en") -> tuple[Table, ...]:
         """A row per sheet: student, variant, score, wrong numbers, mistake."""
-        say = speaker(language)
+        translate = speaker(language)
         heads = (_("student"), _("variant"), _("right"), _("wrong"), _("probable mistake"))
         rows: list[list[Cell]] = []
         for each in self.sheets:
@@ -96,12 +96,12 @@ class Grades(Tabular, Sequence[Grade]):
                 continue
             wrong = [name for name, ok in zip(self.questions, each.right, strict=True) if ok is False]
             open_ = [name for name, ok in zip(self.questions, each.right, strict=True) if ok is None]
-            mistakes = say(_(" or ")).join(say(MISTAKE_NAMES[name]) for name in each.mistakes)
+            mistakes = translate(_(" or ")).join(translate(MISTAKE_NAMES[name]) for name in each.mistakes)
             if wrong and not mistakes:
-                mistakes = say(_("none of the usual ones"))
+                mistakes = translate(_("none of the usual ones"))
             if each.where and mistakes:
                 mistakes = f"{mistakes} ({each.where})"
-            shown = ", ".join([*wrong, *(say(_("{name} (open)", name=name)) for name in open_)])
+            shown = ", ".join([*wrong, *(translate(_("{name} (open)", name=name)) for name in open_)])
             score = Amount(round(each.score, 2), scale=PERCENT)
             rows.append([each.student, each.variant, score, shown, mistakes])
         return (Table(heads, rows, "<>><<"),)

@@ -66,7 +66,7 @@ def drawing(found: Variants, each: Variant, language: str, diagonal: float = DIA
     return found.drawings[key]
 
 
-def data_rows(found: Variants, each: Variant, say: Translate) -> list[tuple[str, str]]:
+def data_rows(found: Variants, each: Variant, translate: Translate) -> list[tuple[str, str]]:
     """What a variant gives: every dimension of links and frame, loads, input and its rate."""
     from linkwright.reports.sections.task import element_data, kind_of
 
@@ -82,7 +82,9 @@ def data_rows(found: Variants, each: Variant, say: Translate) -> list[tuple[str,
         rows.append((f"{driver.link} ({driver.joint})", _speed(driver.law)))
     data = to_data(model)
     for name, data_text in [*data.get("joints", {}).items(), *data.get("loads", {}).items()]:
-        rows.append((name, say(_("; ")).join([kind_of(data_text, say), element_data(data_text, say)])))
+        rows.append(
+            (name, translate(_("; ")).join([kind_of(data_text, translate), element_data(data_text, translate)]))
+        )
     if any(model.gravity):
         rows.append(("g", f"({model.gravity[0]:g}; {model.gravity[1]:g}) m/s²"))
     return rows
@@ -104,12 +106,12 @@ def _quantity(key: str, value: float) -> str:
     return shown(value, "angle") if last == "angle" else shown(value, "length")
 
 
-def position_text(found: Variants, say: Translate) -> str:
+def position_text(found: Variants, translate: Translate) -> str:
     """The position asked for, in words."""
     driver = next(iter(found.task.mechanism.drivers.values()))
     turning = found.task.mechanism.joints[driver.joint].coordinate == "turn"
     place = shown(found.task.at, "angle") if turning else shown(found.task.at, "length")
-    return say(_("Position: {link} at {input}.", input=place, link=driver.link))
+    return translate(_("Position: {link} at {input}.", input=place, link=driver.link))
 
 
 def slug(name: str) -> str:
@@ -134,21 +136,28 @@ def sheets(found: Variants, language: str) -> Files:
     from linkwright.reports.pictures import font_scaling
     from linkwright.reports.typst_pages import compiled
 
-    say = speaker(language)
-    document = Document(say(_("Exercise: {name}", name=found.name)), say, language, contents=False)
+    translate = speaker(language)
+    document = Document(translate(_("Exercise: {name}", name=found.name)), translate, language, contents=False)
     for each in found.variants:
         page: list[Block] = [] if each.number == 1 else [Source("#pagebreak()")]
-        page.append(Heading(say(_("Variant {number}", number=each.number)), number=False))
-        page.append(Paragraph(say(_("Name: ……………………………………  Number: ………………………"))))
-        page.append(Paragraph(literal(position_text(found, say)) + " " + say(CONVENTION)))
-        rows = tuple((literal(a), literal(b)) for a, b in data_rows(found, each, say))
+        page.append(Heading(translate(_("Variant {number}", number=each.number)), number=False))
+        page.append(Paragraph(translate(_("Name: ……………………………………  Number: ………………………"))))
+        page.append(Paragraph(literal(position_text(found, translate)) + " " + translate(CONVENTION)))
+        rows = tuple((literal(a), literal(b)) for a, b in data_rows(found, each, translate))
         left = ROOM - ROW * (len(rows) + len(found.task.questions))
         tallest = min(max(left, LOWEST), TALLEST)
         shown = font_scaling(partial(drawing, found, each, language), SHARE, tallest)
         page.append(Figure(literal(found.name), ((shown, SHARE),), tallest=tallest))
-        page.append(Table(say(_("Given")), (say(_("name")), say(_("value"))), rows, "<<"))
+        page.append(Table(translate(_("Given")), (translate(_("name")), translate(_("value"))), rows, "<<"))
         asked = tuple((literal(q.text(language)), "…" * 14, q.unit) for q in found.task.questions)
-        page.append(Table(say(_("Wanted")), (say(_("name")), say(_("answer")), say(_("unit"))), asked, "<<<"))
+        page.append(
+            Table(
+                translate(_("Wanted")),
+                (translate(_("name")), translate(_("answer")), translate(_("unit"))),
+                asked,
+                "<<<",
+            )
+        )
         document.blocks += page
     return {"sheets.pdf": compiled(document, "pdf")}
 
@@ -169,12 +178,12 @@ def key(found: Variants, language: str) -> Files:
 # PrairieLearn -----------------------------------------------------------------------------------
 def prairielearn(found: Variants, language: str) -> Files:
     """A question's folder: information, page, server, pictures; the server picks a variant."""
-    say = speaker(language)
+    translate = speaker(language)
     folder = f"prairielearn/{slug(found.name)}"
     info = {
         "uuid": str(uuid.uuid5(uuid.NAMESPACE_URL, f"linkwright:{found.name}:{found.seed}:{len(found.variants)}")),
         "title": found.name,
-        "topic": say(_("Theory of machines")),
+        "topic": translate(_("Theory of machines")),
         "tags": ["linkwright", "numeric"],
         "type": "v3",
     }
@@ -186,8 +195,8 @@ def prairielearn(found: Variants, language: str) -> Files:
         for i, q in enumerate(found.task.questions)
     )
     page = (
-        f"<pl-question-panel>\n<p>{braceless(escape(position_text(found, say)))} "
-        f"{escape(say(CONVENTION))}</p>\n"
+        f"<pl-question-panel>\n<p>{braceless(escape(position_text(found, translate)))} "
+        f"{escape(translate(CONVENTION))}</p>\n"
         '<pl-figure file-name="{{params.picture}}"></pl-figure>\n'
         f"<table>{{{{#params.rows}}}}<tr><td>{{{{name}}}}</td><td>{{{{value}}}}</td></tr>{{{{/params.rows}}}}</table>\n"
         f"</pl-question-panel>\n{inputs}\n"
@@ -195,7 +204,7 @@ def prairielearn(found: Variants, language: str) -> Files:
     data = [
         {
             "picture": f"variant-{v.number}.svg",
-            "rows": [{"name": a, "value": b} for a, b in data_rows(found, v, say)],
+            "rows": [{"name": a, "value": b} for a, b in data_rows(found, v, translate)],
             "answers": {mark(q): a for q, a in zip(found.task.questions, v.answers, strict=True)},
         }
         for v in found.variants
@@ -239,7 +248,7 @@ def _slack(found: Variants, index: int) -> float:
 # Moodle -----------------------------------------------------------------------------------------
 def moodle(found: Variants, language: str) -> Files:
     """A question bank: one question with embedded numerical answers per variant, all in one category."""
-    say = speaker(language)
+    translate = speaker(language)
     category = f"$course$/top/{found.name.replace('/', '//')}"
     parts = [
         '<?xml version="1.0" encoding="UTF-8"?>\n<quiz>\n<question type="category"><category>'
@@ -249,9 +258,9 @@ def moodle(found: Variants, language: str) -> Files:
         picture = base64.b64encode(drawing(found, each, language).encode()).decode()
         name = f"variant-{each.number}.svg"
         text = (
-            f"<p>{braceless(escape(position_text(found, say)))} {escape(say(CONVENTION))}</p>"
+            f"<p>{braceless(escape(position_text(found, translate)))} {escape(translate(CONVENTION))}</p>"
             f'<p><img src="@@PLUGINFILE@@/{name}" alt={braceless(quoteattr(found.name))} width="{PICTURE}"/></p>'
-            f"{braceless(_html_table(data_rows(found, each, say)))}"
+            f"{braceless(_html_table(data_rows(found, each, translate)))}"
             + "".join(
                 f"<p>{braceless(escape(q.text(language)))} = {{1:NUMERICAL:={a:.8g}:{_width(found, i, a):.3g}}} "
                 f"{escape(q.unit)}</p>"
@@ -300,7 +309,7 @@ def _put(package: zipfile.ZipFile, name: str, text: str) -> None:
 
 def item(found: Variants, each: Variant, language: str) -> str:
     """One assessment item."""
-    say = speaker(language)
+    translate = speaker(language)
     asked = list(zip(found.task.questions, each.answers, strict=True))
     declared = "".join(
         f'<responseDeclaration identifier="R{i}" cardinality="single" baseType="float"><correctResponse>'
@@ -320,9 +329,9 @@ def item(found: Variants, each: Variant, language: str) -> str:
         for i, (_unused, answer) in enumerate(asked)
     )
     text = (
-        f"<p>{escape(position_text(found, say))} {escape(say(CONVENTION))}</p>"
+        f"<p>{escape(position_text(found, translate))} {escape(translate(CONVENTION))}</p>"
         f'<p><img src="images/variant-{each.number}.svg" alt={quoteattr(found.name)}/></p>'
-        f"{_html_table(data_rows(found, each, say))}{lines}"
+        f"{_html_table(data_rows(found, each, translate))}{lines}"
     )
     return (
         '<?xml version="1.0" encoding="UTF-8"?>\n'

@@ -83,7 +83,7 @@ class Question:
 
     def text(self, language: str) -> str:
         """What it is, in words: ``angular velocity of jaw``."""
-        return self.output.sentence(alone=True).say(language)
+        return self.output.sentence(alone=True).translate(language)
 
     @property
     def unit(self) -> str:

@@ -30,7 +30,7 @@ def value_text(value: float, dimension: str) -> str:
 def tables(comparison: Comparison, language: str = "en") -> tuple[Table, ...]:
     """The table, criteria in rows, alternatives in columns, the best values marked; the ranking, the evaluation, the
     notes."""
-    say = speaker(language)
+    translate = speaker(language)
     rows: list[list[Cell]] = []
     for row in comparison.rows:
         stars = [f" {MARK}" if index in row.best else "  " for index in range(len(row.values))]
@@ -41,20 +41,20 @@ def tables(comparison: Comparison, language: str = "en") -> tuple[Table, ...]:
     title = _("Ranking (mean over the metrics of how near each comes to the best, 100 = best in all)")
     return (
         Table(head, rows, notes=[_("* best of the alternatives")]),
-        Table(title=title, notes=ranking(comparison, say)),
+        Table(title=title, notes=ranking(comparison, translate)),
         Table(title=_("Evaluation"), notes=sentences(comparison, language)),
         Table(notes=comparison.notes),
     )
 
 
-def ranking(comparison: Comparison, say: Translate) -> list[str]:
+def ranking(comparison: Comparison, translate: Translate) -> list[str]:
     """A line with the score of every alternative, best first, and what decided."""
     if not comparison.judged:
-        return [say(_("None of the metrics has a better direction, so there is no ranking."))]
+        return [translate(_("None of the metrics has a better direction, so there is no ranking."))]
     lines = []
     for rank in comparison.ranking:
         lines.append(
-            say(
+            translate(
                 _(
                     "{place}. {label}: {score} of 100",
                     place=rank.place,
@@ -63,34 +63,34 @@ def ranking(comparison: Comparison, say: Translate) -> list[str]:
                 )
             )
         )
-        lines += [f"   {reason}" for reason in _reasons(comparison, rank, say)]
+        lines += [f"   {reason}" for reason in _reasons(comparison, rank, translate)]
     return lines
 
 
-def _reasons(comparison: Comparison, rank: Rank, say: Translate) -> list[str]:
+def _reasons(comparison: Comparison, rank: Rank, translate: Translate) -> list[str]:
     """What an alternative is best in, and what costs it most against the best."""
-    best = _best_in(comparison, rank, say)
-    found = [say(_("best in: {names}", names=best))] if best else []
+    best = _best_in(comparison, rank, translate)
+    found = [translate(_("best in: {names}", names=best))] if best else []
     costly = sorted(
         (row for row in comparison.judged if row.score(rank.index) < 1.0 - 1e-9),
         key=lambda row: -row.weight * (1.0 - row.score(rank.index)),
     )
-    return found + [_against(comparison, row, rank.index, say) for row in costly[:REASONS]]
+    return found + [_against(comparison, row, rank.index, translate) for row in costly[:REASONS]]
 
 
-def _against(comparison: Comparison, row: Row, index: int, say: Translate) -> str:
+def _against(comparison: Comparison, row: Row, index: int, translate: Translate) -> str:
     """How an alternative compares with the best one in a metric."""
     winner = row.best[0]
     mine, theirs = row.values[index], row.values[winner]
     assert mine is not None and theirs is not None
     ratio = abs(mine.value / theirs.value) if theirs.value else float("inf")
-    return say(
+    return translate(
         (
             _("{name}: {mine}, against {theirs} of {other} ({ratio} times)")
             if ratio < float("inf")
             else _("{name}: {mine}, against {theirs} of {other}")
         ).format(
-            name=row.criterion.label(language_of(say)),
+            name=row.criterion.label(language_of(translate)),
             mine=value_text(mine.value, mine.dimension),
             theirs=value_text(theirs.value, theirs.dimension),
             other=comparison.labels[winner],
@@ -106,7 +106,7 @@ def evaluation(comparison: Comparison, language: str = "en") -> str:
 
 def sentences(comparison: Comparison, language: str) -> list[str]:
     """Sentences about the motion, the pivot, the torque, the flywheel, and a verdict."""
-    say = speaker(language)
+    translate = speaker(language)
     subjects = {_("Motion: {parts}."): _motion}
     if any(each.loaded for each in comparison.alternatives):
         subjects |= {
@@ -116,13 +116,13 @@ def sentences(comparison: Comparison, language: str) -> list[str]:
         }
     found = []
     for subject, part in subjects.items():
-        parts = say(_("; ")).join(part(each, say) for each in comparison.alternatives)
-        found.append(say(subject.format(parts=parts, fluctuation=f"{comparison.fluctuation:g}")))
-    return [*found, *_verdict(comparison, say)]
+        parts = translate(_("; ")).join(part(each, translate) for each in comparison.alternatives)
+        found.append(translate(subject.format(parts=parts, fluctuation=f"{comparison.fluctuation:g}")))
+    return [*found, *_verdict(comparison, translate)]
 
 
-def _motion(each: Alternative, say: Translate) -> str:
-    return say(
+def _motion(each: Alternative, translate: Translate) -> str:
+    return translate(
         _(
             "in {label} the output {output} travels {travel}, at most {rate} fast, with accelerations up to {second}",
             label=each.label,
@@ -140,14 +140,14 @@ def _measured(each: Alternative, name: str) -> str:
     return "" if found is None else value_text(found.value, found.dimension)
 
 
-def _pivot(each: Alternative, say: Translate) -> str:
+def _pivot(each: Alternative, translate: Translate) -> str:
     joint, link = each.pivot
     highest, lowest = map(each.analysis.part, each.reactions)
     force = each.forces_at(highest.time).reaction(joint, on=link)[0]
     if not np.isfinite(force).all():  # on a change point: the value next to it
         neighbour = highest.time - NEIGHBOUR_SHARE * (each.motion.positions.period or 0.0)
         force = each.forces_at(neighbour).reaction(joint, on=link)[0]
-    return say(
+    return translate(
         _(
             "pivot {joint} of {label} carries at most {most} (at input {at}, direction "
             "{direction}) and at least {least}",
@@ -161,12 +161,12 @@ def _pivot(each: Alternative, say: Translate) -> str:
     )
 
 
-def _torque(each: Alternative, say: Translate) -> str:
+def _torque(each: Alternative, translate: Translate) -> str:
     high, low, root = (each.analysis.part(effort).value for effort in EFFORTS)
     dimension = "torque" if each.analysis.input_dimension == "angle" else "force"
     speed = np.abs(next(iter(each.motion.positions.coordinates.values()))[1]).max()
     gap = float(np.abs(each.forces.power_residual).max() / speed) if speed > 0.0 else 0.0
-    return say(
+    return translate(
         _(
             "that of {label} lies between {low} and {high}, root mean square {root}; found from "
             "the joint forces and from the powers it agrees within {gap}",
@@ -179,12 +179,12 @@ def _torque(each: Alternative, say: Translate) -> str:
     )
 
 
-def _flywheel(each: Alternative, say: Translate) -> str:
+def _flywheel(each: Alternative, translate: Translate) -> str:
     names = {"inertia": "flywheel", "energy": "energy_fluctuation", "power": "mean_power"}
     numbers = {word: _measured(each, name) for word, name in names.items()}
     if not numbers["inertia"]:
-        return say(_("for {label} there is none to lay out", label=each.label))
-    return say(
+        return translate(_("for {label} there is none to lay out", label=each.label))
+    return translate(
         _(
             "{label} has an energy fluctuation of {energy} at a mean power of {power} and needs {inertia}",
             label=each.label,
@@ -193,14 +193,14 @@ def _flywheel(each: Alternative, say: Translate) -> str:
     )
 
 
-def _verdict(comparison: Comparison, say: Translate) -> list[str]:
+def _verdict(comparison: Comparison, translate: Translate) -> list[str]:
     """Who comes first, by what, and what speaks for the others."""
     if not comparison.judged:
         return []
     first, *others = comparison.ranking
-    names = _best_in(comparison, first, say)
+    names = _best_in(comparison, first, translate)
     lines = [
-        say(
+        translate(
             _(
                 "Verdict: {label} comes first ({score} of 100); it is best in: {names}.",
                 label=first.label,
@@ -210,17 +210,17 @@ def _verdict(comparison: Comparison, say: Translate) -> list[str]:
         )
     ]
     for rank in others:
-        names = _best_in(comparison, rank, say)
+        names = _best_in(comparison, rank, translate)
         verdict = (
             _("{label} ({score} of 100) is to be preferred where this matters most: {names}.")
             if names
             else _("{label} ({score} of 100) is best in none of the metrics.")
         )
-        lines.append(say(verdict.format(label=rank.label, score=f"{100 * rank.score:.0f}", names=names)))
+        lines.append(translate(verdict.format(label=rank.label, score=f"{100 * rank.score:.0f}", names=names)))
     return lines
 
 
-def _best_in(comparison: Comparison, rank: Rank, say: Translate) -> str:
+def _best_in(comparison: Comparison, rank: Rank, translate: Translate) -> str:
     """The criteria in which an alternative is best."""
-    best = [row.criterion.label(language_of(say)) for row in comparison.judged if rank.index in row.best]
-    return say(_(", ")).join(best)
+    best = [row.criterion.label(language_of(translate)) for row in comparison.judged if rank.index in row.best]
+    return translate(_(", ")).join(best)

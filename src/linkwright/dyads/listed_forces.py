@@ -54,12 +54,12 @@ class ForceLines:
         """The calls, or why there are none."""
         if self.forces is None:
             return
-        say, write = self.listing.say, self.listing.write
+        translate, write = self.listing.translate, self.listing.write
         if not self.possible:
             sentence = _("joint forces: not all groups have a function for them; lw.solve_forces(mechanism) has them")
-            write("", f"# {say(sentence)}")
+            write("", f"# {translate(sentence)}")
             return
-        write("", "# " + say(_("joint forces, from the last group to the first")))
+        write("", "# " + translate(_("joint forces, from the last group to the first")))
         if self.listing.plan.others:
             write("library = lw.solve_forces(motion)")
         for step in reversed(self.listing.plan.steps):
@@ -219,7 +219,7 @@ class ForceLines:
         if all("np" not in each for each in parts):
             return f"({parts[0]}, {parts[1]})"
         own = self.listing.names.of("load", f"{link}_force")
-        text = self.listing.say(
+        text = self.listing.translate(
             _("loads of the model and friction on {link}, by positions", link=" ".join(link.split()))
         )
         self.listing.write(f"# {text}", f"{own} = np.zeros(({len(self.listing.rows)}, 2))")

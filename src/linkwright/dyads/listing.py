@@ -49,8 +49,8 @@ class Listing(Script):
         units = _(
             "Units: m, kg, s, N, rad; counter-clockwise positive. Points of links: along their line, left of it."
         )
-        yield "# " + self.say(_("{name}: solved group by group with linkwright.dyads", name=name))
-        yield f"# {self.say(units)}"
+        yield "# " + self.translate(_("{name}: solved group by group with linkwright.dyads", name=name))
+        yield f"# {self.translate(units)}"
         yield from ("import numpy as np", "")
         if self.plan.others:
             yield "import linkwright as lw"
@@ -62,7 +62,7 @@ class Listing(Script):
             yield from CROSS
 
     def _data(self) -> None:
-        self.write("", "# " + self.say(_("given")))
+        self.write("", "# " + self.translate(_("given")))
         for point in self.mechanism.frame.points:
             if any(self._touches(step, point) for step in self.plan.steps):
                 name = self.names.of("point", point)
@@ -88,7 +88,7 @@ class Listing(Script):
         links = " ".join(", ".join(step.group.links).split())
         form = _TITLES.get(step.kind.lower() or "other", _DYAD)
         reason = in_language(step.reason, self.language)
-        title = self.say(form.format(links=links, signature=step.group.signature, reason=reason))
+        title = self.translate(form.format(links=links, signature=step.group.signature, reason=reason))
         self.write("", f"# {step.number}  {title}")
         {"bar": self._bar, "slider": self._slider, "weld": self._weld, "": self._other}.get(step.kind, self._dyad)(
             step
@@ -193,7 +193,7 @@ class Listing(Script):
     def _table(self) -> None:
         self.write(
             "",
-            "# " + self.say(_("table: the columns of `linkwright export`; angles within half a turn")),
+            "# " + self.translate(_("table: the columns of `linkwright export`; angles within half a turn")),
             "table = {}",
         )
         for driver in self.mechanism.drivers:

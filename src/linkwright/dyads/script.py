@@ -85,14 +85,14 @@ class Script:
         self,
         motion: Motion,
         forces: Forces | None,
-        say: Translate,
+        translate: Translate,
         *,
         rows: Sequence[int] | None = None,
         source: str = "",
         language: str = "en",
     ) -> None:
         chosen = range(motion.steps) if rows is None else rows
-        self.motion, self.forces, self.say, self.language = motion, forces, say, language
+        self.motion, self.forces, self.translate, self.language = motion, forces, translate, language
         self.source = source
         self.rows = [i for i in chosen if motion.ok[i]]
         self.plan: Plan = plan(motion, self.rows)

@@ -193,7 +193,7 @@ class Step:
         """Its results."""
         return [item for item in self.items if isinstance(item, Equation)]
 
-    def say(self, text: str) -> None:
+    def note(self, text: str) -> None:
         """Adds a sentence."""
         self.items.append(Note(text))
 

@@ -77,7 +77,7 @@ class Charts:
         rows = [*self._motion(), self._reactions(), [*self._efforts(), *self._hodograph()]]
         return [row for row in rows if row]
 
-    def say(self, message: Message) -> str:
+    def translate(self, message: Message) -> str:
         """A message in the language of the results."""
         return message.translate(self.language)
 
@@ -91,7 +91,7 @@ class Charts:
     @property
     def _input_title(self) -> str:
         place = self._input
-        word = self.say(_("time")) if place.column.quantity else place.column.owner
+        word = self.translate(_("time")) if place.column.quantity else place.column.owner
         return f"{word} [{place.column.unit}]"
 
     def _motion(self) -> Iterator[list[Chart]]:
@@ -111,9 +111,9 @@ class Charts:
         places = [each for each in found if each is not None]
         if not places:
             return None
-        words = [self.say(QUANTITIES[each.column.quantity]) for each in places]
+        words = [self.translate(QUANTITIES[each.column.quantity]) for each in places]
         curves = tuple(Curve(word, self._input, each) for word, each in zip(words, places, strict=True))
-        word = words[0] if len(words) == 1 else self.say(VECTORS[quantities[0].partition(".")[0]])
+        word = words[0] if len(words) == 1 else self.translate(VECTORS[quantities[0].partition(".")[0]])
         return Chart(f"{name}: {word}", self._input_title, f"{word} [{places[0].column.unit}]", curves)
 
     def _reactions(self) -> list[Chart]:
@@ -121,13 +121,13 @@ class Charts:
         forces = self.results.forces
         if forces is None or not loaded(forces):
             return []
-        word, curves = self.say(_("joint forces")), []
+        word, curves = self.translate(_("joint forces")), []
         for joint, link in reaction_pairs(self.mechanism):
             if largest(forces.reaction(joint, on=link)) > forces.rounding:
                 name = f"{joint} on {link}"
                 curves.append(Curve(name, self._input, self.places["forces", name, "magnitude"]))
         parts = [tuple(curves[k : k + MOST]) for k in range(0, len(curves), MOST)]
-        axis = f"{self.say(QUANTITIES['magnitude'])} [N]"
+        axis = f"{self.translate(QUANTITIES['magnitude'])} [N]"
         return [Chart(word, self._input_title, axis, part) for part in parts]
 
     def _efforts(self) -> Iterator[Chart]:
@@ -138,8 +138,8 @@ class Charts:
             if place is not None:
                 by_unit.setdefault(place.column.unit, []).append(Curve(name, self._input, place))
         for unit, curves in by_unit.items():
-            word = self.say(_("what the driver must supply"))
-            axis = f"{self.say(QUANTITIES['effort'])} [{unit}]"
+            word = self.translate(_("what the driver must supply"))
+            axis = f"{self.translate(QUANTITIES['effort'])} [{unit}]"
             yield Chart(word, self._input_title, axis, tuple(curves[:MOST]))
 
     def _hodograph(self) -> Iterator[Chart]:
@@ -152,8 +152,8 @@ class Charts:
         if ("forces", name, "x") not in self.places:
             return
         x, y = (self.places["forces", name, axis] for axis in "xy")
-        right, up = (f"{self.say(QUANTITIES[axis])} [N]" for axis in "xy")
-        yield Chart(f"{self.say(title_of('hodograph'))}, {name}", right, up, (Curve(name, x, y),), square=True)
+        right, up = (f"{self.translate(QUANTITIES[axis])} [N]" for axis in "xy")
+        yield Chart(f"{self.translate(title_of('hodograph'))}, {name}", right, up, (Curve(name, x, y),), square=True)
 
 
 def write_charts(sheet: Any, book: Any, rows: Sequence[Sequence[Chart]]) -> None:

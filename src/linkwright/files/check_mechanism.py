@@ -218,11 +218,11 @@ def _unlikely_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) 
 
 def _discs(mechanism: Mechanism, link: str) -> list[float]:
     """How far the wheels and cams of a link reach, m."""
-    pairs = (joint.settled(mechanism, _unsaid) for joint in mechanism.joints.values() if joint.higher)
+    pairs = (joint.settled(mechanism, _unreported) for joint in mechanism.joints.values() if joint.higher)
     return [radii[link] for pair in pairs if link in (radii := disc_radii(pair, mechanism))]
 
 
-def _unsaid(*_: object, **__: object) -> None:
+def _unreported(*_: object, **__: object) -> None:
     """Findings that are reported when all of the model is read."""
 
 

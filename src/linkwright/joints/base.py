@@ -60,7 +60,7 @@ class Entry:
     values: dict[str, Any]
     links: Mapping[str, ModelLink]
 
-    def say(
+    def finding(
         self, key: str, problem: Message, remedy: Message, code: str = "reference", severity: Severity = "error"
     ) -> None:
         """Adds a finding at one of the keys, or with ``""`` at the entry itself."""

@@ -59,7 +59,7 @@ class BeltPair(WheelPair):
     def check(self, entry: Entry, distance: float) -> None:
         problem = self._touching(distance)
         if problem is not None:
-            entry.say(
+            entry.finding(
                 "radii" if self.radii else "teeth",
                 problem,
                 _("increase the centre distance, or take smaller wheels"),

@@ -134,23 +134,23 @@ class CamJoint(HigherPair):
         values, name = entry.values, entry.name
         program, angles, lifts = values.get("program"), values.get("angles"), values.get("lifts")
         if values["cam"] == values["follower"]:
-            entry.say("follower", _("a cam cannot be its own follower"), _("give two links"), "reference")
+            entry.finding("follower", _("a cam cannot be its own follower"), _("give two links"), "reference")
         elif (program is None) == (angles is None):
-            entry.say(
+            entry.finding(
                 "program",
                 _("the lift of the cam is missing, or set twice"),
                 _("give program: or angles: with lifts:, one of them"),
                 "missing-key",
             )
         elif program is None and not _is_table(angles, lifts):
-            entry.say(
+            entry.finding(
                 "angles",
                 _("the table of the lift is none"),
                 _("give as many lifts as angles, eight or more, the angles increasing from 0 to below 360 deg"),
                 "range",
             )
         elif (values["touch"] == "roller") != (values.get("roller_radius") is not None):
-            entry.say(
+            entry.finding(
                 "roller_radius",
                 _("a roller and its radius go together"),
                 _("write touch: roller and roller_radius: 10 mm, or neither"),

@@ -41,7 +41,7 @@ class ChainPair(BeltPair):
     def read(cls, entry: Entry) -> Joint | None:
         teeth, pitch, radii = (entry.values.get(key) for key in ("teeth", "pitch", "radii"))
         if teeth is not None and pitch is None:
-            entry.say(
+            entry.finding(
                 "",
                 _("the chain's pitch is missing", code="joints.no_pitch"),
                 _("give pitch: 12.7 mm with teeth, or radii instead"),
@@ -49,7 +49,7 @@ class ChainPair(BeltPair):
             )
             return None
         if pitch is not None and radii is not None:
-            entry.say(
+            entry.finding(
                 "radii",
                 _("pitch with teeth already gives the radii", code="joints.radii_and_pitch"),
                 _("leave one of them out"),

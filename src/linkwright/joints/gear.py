@@ -60,7 +60,7 @@ class GearPair(RollingPair):
         values = entry.values
         if values.get("module") and not values.get("teeth") and (values.get("ratio") or values.get("radii")):
             remedy = _("give teeth in place of the radii or the ratio, or leave the module out")
-            entry.say(
+            entry.finding(
                 "module",
                 _("a module says nothing about wheels without numbers of teeth", code="joints.module_without_teeth"),
                 remedy,

@@ -76,7 +76,7 @@ class PrismaticJoint(SlidingJoint):
             return joint
         if math.dist(first, second) == 0:
             problem = _("{points} are at the same place", code="model.same_place", points=together(direction))
-            entry.say("direction", problem, _("name two points with different positions"), "range")
+            entry.finding("direction", problem, _("name two points with different positions"), "range")
         return joint.aligned(links[guide].points)
 
     @classmethod
@@ -89,7 +89,7 @@ class PrismaticJoint(SlidingJoint):
         """Whether guide and block, and their points, are different ones."""
         guide, block, point = (entry.values[key] for key in ("guide", "block", "at"))
         if guide == block:
-            entry.say(
+            entry.finding(
                 "block",
                 _('guide and block are both "{guide}"', code="model.guide_is_block", guide=guide),
                 _("name two different links"),
@@ -103,7 +103,7 @@ class PrismaticJoint(SlidingJoint):
                 point=point,
                 others=tuple(others),
             )
-            entry.say("at", problem, _("rename the point of the guide"), "ambiguous")
+            entry.finding("at", problem, _("rename the point of the guide"), "ambiguous")
             return False
         return True
 

@@ -85,7 +85,7 @@ class RackPair(HigherPair):
         values = entry.values
         pinion, rack = values["pinion"], values["rack"]
         if pinion == rack:
-            entry.say(
+            entry.finding(
                 "rack",
                 _('both links are "{first}"', code="model.both_links", first=pinion),
                 _("name two different links"),
@@ -93,7 +93,7 @@ class RackPair(HigherPair):
             return None
         if not any(pinion in owners for owners in entry.reader.names.pins.values()):
             wheel = {"wheel": pinion}
-            entry.say(
+            entry.finding(
                 "pinion",
                 _('the wheel "{wheel}" has no pin about which it turns', code="joints.without_pin").format(**wheel),
                 _('give "{wheel}" a point that a carrier (the frame, an arm) has as well: its centre').format(
@@ -291,13 +291,15 @@ def _sized(entry: Entry) -> bool:
     radius, teeth, module = (entry.values.get(key) for key in ("radius", "teeth", "module"))
     remedy = _("give radius: 40 mm, or teeth: 20 with module: 4 mm")
     if radius is not None and (teeth is not None or module is not None):
-        entry.say("radius", _("the size is set twice", code="joints.sizes_twice"), remedy, "choice")
+        entry.finding("radius", _("the size is set twice", code="joints.sizes_twice"), remedy, "choice")
         return False
     if radius is None and (teeth is None or module is None):
-        entry.say("radius", _("nothing says how large the wheels are", code="joints.no_size"), remedy, "missing-key")
+        entry.finding(
+            "radius", _("nothing says how large the wheels are", code="joints.no_size"), remedy, "missing-key"
+        )
         return False
     if teeth is not None and not is_integer(teeth):
-        entry.say(
+        entry.finding(
             "teeth",
             _("invalid number of teeth {value:g}", code="joints.no_teeth", value=teeth),
             _("give an integer of at least 1"),

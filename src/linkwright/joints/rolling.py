@@ -73,10 +73,10 @@ class RollingPair(WheelPair):
                     key_=key,
                     own=own,
                 )
-                entry.say("ratio", problem, _("leave the ratio out, or change it"), "choice")
+                entry.finding("ratio", problem, _("leave the ratio out, or change it"), "choice")
                 return
         if i == 1.0:
-            entry.say(
+            entry.finding(
                 "",
                 _("a wheel cannot run in a ring of its own size", code="joints.equal_internal"),
                 _("give different sizes; equal wheels that turn the same way need a belt or a chain"),
@@ -85,7 +85,7 @@ class RollingPair(WheelPair):
             return
         if distance == 0.0:
             problem = _("the centres {centres} lie in one place", code="joints.same_centre", centres=self.centres)
-            entry.say("links", problem, _("put the centres at a distance"), "range")
+            entry.finding("links", problem, _("put the centres at a distance"), "range")
             return
         misfit = self._misfit(distance)
         if misfit is not None:
@@ -94,7 +94,7 @@ class RollingPair(WheelPair):
                 "radii" if self.radii else "module",
                 _("change the distance of the centres, or the sizes of the wheels"),
             )
-            entry.say(key, misfit, remedy, "range", "warning" if loose else "error")
+            entry.finding(key, misfit, remedy, "range", "warning" if loose else "error")
 
     @property
     def asked(self) -> float:

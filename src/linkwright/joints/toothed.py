@@ -234,12 +234,12 @@ def _one_size(entry: Entry, keys: tuple[str, ...]) -> bool:
     present = [key for key in keys if values.get(key) is not None]
     if not present:
         remedy = (_("give one of {keys}") if len(keys) > 1 else _("give {keys}")).format(keys=keys)
-        entry.say("", _("nothing says how large the wheels are", code="joints.no_size"), remedy, "missing-key")
+        entry.finding("", _("nothing says how large the wheels are", code="joints.no_size"), remedy, "missing-key")
         return False
     if {"teeth", "radii"} <= set(present):
         (a, b), (c, d) = values["teeth"], values["radii"]
         if abs(a * d - b * c) > FITS * abs(b * c):
-            entry.say(
+            entry.finding(
                 "radii",
                 _("teeth and radii give different ratios", code="joints.sizes_misfit"),
                 _("leave one of them out"),
@@ -274,7 +274,7 @@ class _Centres:
                     if tied
                     else None
                 )
-                self._say(
+                self._report(
                     self._without(kind).format(wheel=wheel),
                     way
                     or _(
@@ -300,10 +300,10 @@ class _Centres:
                 name=self.named,
                 wheels=self.wheels,
             )
-            self.entry.say("carrier", problem, _("they are carried by {names}", names=tuple(bearing)))
+            self.entry.finding("carrier", problem, _("they are carried by {names}", names=tuple(bearing)))
             return None
         if not ways:
-            self._say(
+            self._report(
                 _(
                     "no link carries the pins of both wheels {wheels}, so nothing fixes their centre distance",
                     code="joints.no_carrier",
@@ -314,7 +314,7 @@ class _Centres:
             return None
         ways.sort(key=lambda way: way[0] != "frame")
         if (len(ways) > 1 and ways[0][0] != "frame") or len([w for w in ways if w[0] == ways[0][0]]) > 1:
-            self._say(
+            self._report(
                 _(
                     "the centres of the wheels may be {names}",
                     code="joints.carriers",
@@ -333,8 +333,8 @@ class _Centres:
             else _('the wheel "{wheel}" has no pin about which it turns')
         )
 
-    def _say(self, problem: Message, remedy: Message) -> None:
-        self.entry.say("links", problem, remedy)
+    def _report(self, problem: Message, remedy: Message) -> None:
+        self.entry.finding("links", problem, remedy)
 
 
 def length(value: float) -> str:

@@ -434,7 +434,7 @@ class Outcome:
     group: str | None = None
     kind: str = "ok"
 
-    def say(self, language: str = "en") -> str:
+    def translate(self, language: str = "en") -> str:
         """The sentence in a language."""
         return in_language(self.sentence, language)
 

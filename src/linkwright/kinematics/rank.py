@@ -52,9 +52,9 @@ class RankReport:
         """Number of independent (at a special position instantaneous) freedoms of the mechanism."""
         return self.freedoms - self.rank
 
-    def say(self, language: str = "en") -> str:
+    def translate(self, language: str = "en") -> str:
         """The sentence in a language."""
-        return self.sentence.say(language)
+        return self.sentence.translate(language)
 
 
 def rank_from_drawing(mechanism: Mechanism) -> RankReport | None:

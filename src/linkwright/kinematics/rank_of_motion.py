@@ -56,10 +56,10 @@ def rank_sentence(mechanism: Mechanism, language: str = "en") -> str:
         return ""
     good = np.flatnonzero(motion.ok)
     if len(good):
-        return jacobian_rank(motion, int(good[0])).say(language)
+        return jacobian_rank(motion, int(good[0])).translate(language)
     outcome = motion.outcomes[0]
     return (
-        _("At the start of the cycle {outcome}, whatever the count says", outcome=outcome).say(language)
+        _("At the start of the cycle {outcome}, whatever the count says", outcome=outcome).translate(language)
         if outcome.kind == "singular"
         else ""
     )

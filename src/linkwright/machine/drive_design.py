@@ -54,8 +54,8 @@ class DriveDesign(Numbers):
     def title(self) -> str:
         return self.name
 
-    def blocks(self, say: Translate) -> list[Block]:
-        return [each for each in self.found(say) if each.rows]
+    def blocks(self, translate: Translate) -> list[Block]:
+        return [each for each in self.found(translate) if each.rows]
 
     def columns(self) -> dict[str, Floats]:
         return {} if self.machine is None else self.machine.columns()
@@ -64,12 +64,12 @@ class DriveDesign(Numbers):
         return [] if self.machine is None else self.machine.notes(language)
 
 
-def of_areas(energy: EnergyFluctuation, options: DriveOptions, say: Translate) -> list[Block]:
+def of_areas(energy: EnergyFluctuation, options: DriveOptions, translate: Translate) -> list[Block]:
     """Rows of areas between torque curve and mean line."""
     first = [
         Row("energy_fluctuation", energy.value, "energy"),
-        _after("energy_lowest", float(energy.energy.min()), int(energy.low), say),
-        _after("energy_highest", float(energy.energy.max()), int(energy.high), say),
+        _after("energy_lowest", float(energy.energy.min()), int(energy.low), translate),
+        _after("energy_highest", float(energy.energy.max()), int(energy.high), translate),
     ]
     flywheel, rows = _by_formula(energy.value, options)
     total = options.present + flywheel
@@ -78,7 +78,9 @@ def of_areas(energy: EnergyFluctuation, options: DriveOptions, say: Translate) -
     return _blocks(first, rows, dimensions(flywheel, options.speed or 0.0, options))
 
 
-def of_curves(driver: TorqueCurve, load: TorqueCurve | None, options: DriveOptions, say: Translate) -> list[Block]:
+def of_curves(
+    driver: TorqueCurve, load: TorqueCurve | None, options: DriveOptions, translate: Translate
+) -> list[Block]:
     """Rows of a driving torque against a load; raises LinkwrightError for a mean torque of zero."""
     mean = driver.mean
     (_unused, lowest), (_unused2, highest) = driver.extremes()
@@ -113,7 +115,7 @@ def of_curves(driver: TorqueCurve, load: TorqueCurve | None, options: DriveOptio
     total = options.present + flywheel
     if total and options.speed:
         third.append(share("formula_fluctuation", speed_fluctuation(energy.value, options.speed, total)))
-        third += speeds(true_speed(resisting, total, options.speed, driver=driver), lambda angle: angle, say)
+        third += speeds(true_speed(resisting, total, options.speed, driver=driver), lambda angle: angle, translate)
         third += _accelerations(driver.minus(resisting), total)
     return _blocks(first, second, third, dimensions(flywheel, options.speed or 0.0, options))
 
@@ -122,9 +124,9 @@ def _blocks(*parts: list[Row]) -> list[Block]:
     return [Block("", "", rows) for rows in parts]
 
 
-def _after(key: str, energy: float, area: int, say: Translate) -> Row:
+def _after(key: str, energy: float, area: int, translate: Translate) -> Row:
     """An energy with the number of the area behind which it is."""
-    place = say(_("after area {number}", number=area)) if area else say(_("at the beginning"))
+    place = translate(_("after area {number}", number=area)) if area else translate(_("at the beginning"))
     return Row(key, energy, "energy", note=place, more={"after_area": area})
 
 
@@ -174,19 +176,19 @@ def of_mechanism(mechanism: Mechanism, options: DriveOptions, steps: int) -> Dri
         margin=options.margin,
     )
     sized = Block("dimensions", "", dimensions(found.exact_flywheel, found.equivalent.speed, options))
-    return DriveDesign(mechanism.name, lambda say: [*found.blocks(say), sized], found)
+    return DriveDesign(mechanism.name, lambda translate: [*found.blocks(translate), sized], found)
 
 
-def of_diagram(options: DriveOptions, say: Translate) -> DriveDesign:
+def of_diagram(options: DriveOptions, translate: Translate) -> DriveDesign:
     """Motor and flywheel of a torque diagram, by its areas or by expressions."""
     if options.areas is not None:
         areas, scales = options.areas
         torque, angle = scales or (1.0, 1.0)
         energy = fluctuation_from_areas(areas, torque_scale=torque, angle_scale=angle)
-        title = say(_("Torque diagram of {count} areas", count=len(areas)))
+        title = translate(_("Torque diagram of {count} areas", count=len(areas)))
         return DriveDesign(title, partial(of_areas, energy, options))
     assert options.torque is not None
     text, driver = options.torque
-    against, load = options.load or (say(_("its mean")), None)
-    title = say(_("T = {torque}, against {load}", torque=text, load=against))
+    against, load = options.load or (translate(_("its mean")), None)
+    title = translate(_("T = {torque}, against {load}", torque=text, load=against))
     return DriveDesign(title, partial(of_curves, driver, load, options))

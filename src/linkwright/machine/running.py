@@ -56,7 +56,7 @@ def share(key: str, value: float, label: str = "") -> Row:
     return Row(key, value, label=label, scale=PERCENT, digits=5)
 
 
-def speeds(curve: SpeedCurve, at: Callable[[float], float], say: Translate, before: str = "") -> list[Row]:
+def speeds(curve: SpeedCurve, at: Callable[[float], float], translate: Translate, before: str = "") -> list[Row]:
     """How even a speed is, and its extremes; ``before`` their keys."""
     slow, fast = curve.slowest, curve.fastest
     reached = share(f"{before}reached_fluctuation", curve.fluctuation, _("  coefficient really reached with it"))
@@ -113,7 +113,7 @@ class SteadyRunning(PlotMixin, Numbers):
         """Name of the machine."""
         return self.equivalent.forces.mechanism.name
 
-    def blocks(self, say: Translate) -> list[Block]:
+    def blocks(self, translate: Translate) -> list[Block]:
         """The numbers: motor, energy and inertia, flywheel by the formula, exact flywheel; without a motor where the
         loads drive the machine."""
         reduced, energy, at = self.equivalent, self.energy, self.equivalent.input_at
@@ -144,8 +144,8 @@ class SteadyRunning(PlotMixin, Numbers):
                 "",
                 [Row("energy_fluctuation", energy.value, "energy"), *(ends if energy.value else []), *inertia],
             ),
-            Block("formula", "", [Row("flywheel", self.flywheel, "inertia"), *speeds(self.speed, at, say)]),
-            Block("exact", "", [*exact, *speeds(self.exact_speed, at, say, "exact_")]),
+            Block("formula", "", [Row("flywheel", self.flywheel, "inertia"), *speeds(self.speed, at, translate)]),
+            Block("exact", "", [*exact, *speeds(self.exact_speed, at, translate, "exact_")]),
         ]
 
     def columns(self) -> dict[str, Floats]:
@@ -163,7 +163,7 @@ class SteadyRunning(PlotMixin, Numbers):
     def notes(self, language: str = "en") -> list[str]:
         """The remarks, that no flywheel is needed, and warnings of singular positions."""
         near = Singularity().evaluate(self.equivalent.forces.motion)
-        found = [each.say(language) for each in self.remarks]
+        found = [each.translate(language) for each in self.remarks]
         found += (
             []
             if self.exact_flywheel

@@ -253,7 +253,7 @@ def _signal(page: PagePrograms, output: Output) -> Plain:
     elif KINDS[output.kind].vector:
         form, rows = "size", row_names(output.kind, owner, output.on)
     title = output.sentence(alone=len(page.mechanism.drivers) == 1)
-    name = {language: title.say(language) for language in LANGUAGES}
+    name = {language: title.translate(language) for language in LANGUAGES}
     return {"id": key, "form": form, "rows": list(rows), "kind": output.dimension, "name": name}
 
 

@@ -124,12 +124,12 @@ class Result(PlotMixin, Numbers):
         return name
 
     @abstractmethod
-    def steps(self, say: Translate) -> list[Step]:
+    def steps(self, translate: Translate) -> list[Step]:
         """The worked solution in a language."""
 
-    def tidy_steps(self, say: Translate) -> list[Step]:
+    def tidy_steps(self, translate: Translate) -> list[Step]:
         """The worked solution, its results rounded to zero likewise, unit by unit."""
-        steps = self.steps(say)
+        steps = self.steps(translate)
         largest: dict[str, float] = {}
         for each in (item for step in steps for item in step.equations):
             largest[each.unit] = max(largest.get(each.unit, 0.0), abs(each.value))

@@ -270,10 +270,10 @@ class Sketch:
             middle = vec(line.mean(axis=0))
             self.labels.append(Label(text, (middle,), "lw-value", 0.9 * LETTERS, 4.0, leader=False, along=ends))
 
-    def chain(self, places: Sequence[tuple[Vec, float]], say: Callable[[float], str], offset: float) -> None:
+    def chain(self, places: Sequence[tuple[Vec, float]], translate: Callable[[float], str], offset: float) -> None:
         """A chain of dimensions between places (on the paper, and as numbers) that follow each other."""
         for (first, one), (last, other) in pairwise(places):
-            self.dimension(first, last, say(abs(other - one)), offset)
+            self.dimension(first, last, translate(abs(other - one)), offset)
 
     def write_names(self) -> None:
         """Puts the names that are waiting where they keep clear of all ink."""

@@ -74,7 +74,7 @@ class Cell:
 def free_body_pages(
     forces: Forces,
     index: int,
-    say: Translate,
+    translate: Translate,
     language: str,
     *,
     of: Sequence[str] = (),
@@ -94,21 +94,21 @@ def free_body_pages(
     shapes = LinkShapes(forces.motion, index)
     reach = max(shapes.reach(body.link) for body in bodies) or 1.0
     usual = round_up(reach / 46.0, GRAPHICAL)
-    cells = [_cell(body_sketch(shapes, body, usual, ROOM), say, language) for body in bodies]
+    cells = [_cell(body_sketch(shapes, body, usual, ROOM), translate, language) for body in bodies]
     sheets = _sheets(cells, min(columns, len(cells)), tallest if first is None else first, tallest)
-    return [_page(sheet, say, heading) for sheet in sheets]
+    return [_page(sheet, translate, heading) for sheet in sheets]
 
 
 # one link -------------------------------------------------------------------------------------
-def _cell(drawn: BodySketch, say: Translate, language: str) -> Cell:
+def _cell(drawn: BodySketch, translate: Translate, language: str) -> Cell:
     body, sketch = drawn.body, Sketch()
-    named = say(_("{number} {link}", number=body.number, link=link_label(body.link, language)))
+    named = translate(_("{number} {link}", number=body.number, link=link_label(body.link, language)))
     sketch.text((0.0, TITLE), sentence_runs(named), "lw-legend lw-flow-call", TITLE)
     sketch.text((0.0, TITLE_LINE + SIZE + 2.0), sentence_runs(_scales(drawn)), size=SIZE)
     left, top, right, bottom = drawn.box
     across = 0.5 * (ROOM[0] - (right - left)) - left
     sketch.put_sketch(drawn, (across, 2 * TITLE_LINE + 4.0 - top), **{"data-link": body.link})
-    height = _table(sketch, body, say, 2 * TITLE_LINE + 12.0 + bottom - top)
+    height = _table(sketch, body, translate, 2 * TITLE_LINE + 12.0 + bottom - top)
     return Cell(sketch, height, body, drawn.shortened)
 
 
@@ -119,11 +119,11 @@ def _scales(drawn: BodySketch) -> str:
 
 
 # numbers --------------------------------------------------------------------------------------
-def _table(found: Sketch, body: FreeBody, say: Translate, y: float) -> float:
+def _table(found: Sketch, body: FreeBody, translate: Translate, y: float) -> float:
     """Components, sizes and directions of forces, and couples, below a height; where the table ends."""
     if body.forces:
         unit, factor = _force_unit(body.forces)
-        head = (f"Fx / {unit}", f"Fy / {unit}", f"F / {unit}", say(pgettext("free_bodies", "angle")) + " / °")
+        head = (f"Fx / {unit}", f"Fy / {unit}", f"F / {unit}", translate(pgettext("free_bodies", "angle")) + " / °")
         y = _head(found, y, head)
         place = _places(max(each.size for each in body.forces) * factor)
         for each in body.forces:
@@ -132,16 +132,16 @@ def _table(found: Sketch, body: FreeBody, say: Translate, y: float) -> float:
             cells = (fixed(x_part, place), fixed(y_part, place), fixed(each.size * factor, place), f"{angle:.2f}")
             y = _row(found, y, each, cells)
         total = np.sum([each.force for each in body.forces], axis=0) * factor
-        y = _line(found, y, say(_("sum")), tuple(fixed(float(part), place) for part in total))
+        y = _line(found, y, translate(_("sum")), tuple(fixed(float(part), place) for part in total))
     if body.couples:
         y = _head(found, y, ("M / N·m",))
         place = _places(max(abs(each.torque) for each in body.couples))
         for each in body.couples:
             y = _row(found, y, each, (fixed(each.torque, place),))
-    return _moments(found, y, body, say)
+    return _moments(found, y, body, translate)
 
 
-def _moments(found: Sketch, y: float, body: FreeBody, say: Translate) -> float:
+def _moments(found: Sketch, y: float, body: FreeBody, translate: Translate) -> float:
     """The sum of all moments, about the mass centre; of forces through one point there is none."""
     moments = [each.moment(body.centre) for each in body.actions]
     arms = [each.size * math.dist(each.place, body.centre) for each in body.actions]
@@ -149,7 +149,7 @@ def _moments(found: Sketch, y: float, body: FreeBody, say: Translate) -> float:
     if largest <= 0.0:
         return y
     value = f"{fixed(sum(moments), _places(largest))} N·m"
-    text = say(_("sum of moments: {value}", value=value))
+    text = translate(_("sum of moments: {value}", value=value))
     found.text((0.0, y + SIZE), sentence_runs(text), size=SIZE)
     return y + LINE
 
@@ -209,23 +209,23 @@ def _sheets(cells: Sequence[Cell], columns: int, first: float, tallest: float) -
     return sheets
 
 
-def _page(rows: Sequence[Sequence[Cell]], say: Translate, heading: str) -> str:
+def _page(rows: Sequence[Sequence[Cell]], translate: Translate, heading: str) -> str:
     columns = max(map(len, rows))
     cells = [cell for row in rows for cell in row]
     wide = columns * Cell.width - SPACING / MILLIMETRE
-    key = fold(say(_("; ")).join(_key(cells, say)), wide, SIZE)
+    key = fold(translate(_("; ")).join(_key(cells, translate)), wide, SIZE)
     below = [[((sentence_runs(line), "lw-legend"), 0.0)] for line in key]
-    return page(cells, columns, below, heading, say(_("Free-body diagrams of the links"))).svg
+    return page(cells, columns, below, heading, translate(_("Free-body diagrams of the links"))).svg
 
 
-def _key(cells: Sequence[Cell], say: Translate) -> Iterator[str]:
+def _key(cells: Sequence[Cell], translate: Translate) -> Iterator[str]:
     """What the symbols of a page mean, and what is not to scale."""
     roles = {each.role for cell in cells for each in cell.body.actions}
     for role in STYLES:
         if role in roles:
-            yield say(ROLES[role])
+            yield translate(ROLES[role])
     if any(cell.shortened for cell in cells):
-        yield say(
+        yield translate(
             _(
                 "dashed arrows are shorter than {minimum} mm to scale and drawn {drawn} mm long",
                 minimum=f"{SHORT:g}",

@@ -20,7 +20,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import link_numbers
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.mechanism.wheels_and_cams import wheel_sizes
-from linkwright.words import Translate, _, say
+from linkwright.words import Translate, _, translate
 from linkwright.words.message import link_label
 
 Shape = Literal["terminator", "data", "preparation", "process", "call", "decision"]
@@ -99,14 +99,14 @@ class _Writer:
         self.mechanism: Mechanism = motion.mechanism
         self.groups = motion.structure.groups
         self.numbers = link_numbers(self.mechanism)
-        self.say: Translate = partial(say, language=language)
+        self.translate: Translate = partial(translate, language=language)
         self.rows = rows
         self.joint_points = set(self.mechanism.joints)
 
     def all(self) -> Iterator[Node]:
         """All symbols."""
         moves = bool(self.mechanism.drivers)
-        yield Node("terminator", (self.say(_("Begin")),))
+        yield Node("terminator", (self.translate(_("Begin")),))
         yield self._data()
         if moves:
             yield self._loop()
@@ -115,11 +115,11 @@ class _Writer:
         if any(group.unknowns for group in self.groups):
             yield Node(
                 "decision",
-                (self.say(_("All groups assembled?")),),
+                (self.translate(_("All groups assembled?")),),
                 jump=NEXT if moves else "end",
-                down=self.say(_("yes")),
-                across=self.say(_("no")),
-                aside=self.say(_("Report: position i is not reached") if moves else _("Report: not assembled")),
+                down=self.translate(_("yes")),
+                across=self.translate(_("no")),
+                aside=self.translate(_("Report: position i is not reached") if moves else _("Report: not assembled")),
             )
         yield from self._further()
         if self.mechanism.has_loads:
@@ -127,38 +127,40 @@ class _Writer:
         yield self._printed()
         if moves:
             yield from self._stepped()
-        yield Node("terminator", (self.say(_("End")),), name="end")
+        yield Node("terminator", (self.translate(_("End")),), name="end")
 
     # beginning --------------------------------------------------------------------------------
     def _data(self) -> Node:
-        mechanism, say = self.mechanism, self.say
+        mechanism, translate = self.mechanism, self.translate
         count = len(mechanism.links)
-        parts = [say(_("fixed points {points}", points=self._listed(mechanism.frame.points)))]
-        parts.append(say(_("links 1 to {count}", count=count)) if count > 1 else say(_("link 1")))
+        parts = [translate(_("fixed points {points}", points=self._listed(mechanism.frame.points)))]
+        parts.append(translate(_("links 1 to {count}", count=count)) if count > 1 else translate(_("link 1")))
         if any(wheel_sizes(joint, mechanism) for joint in mechanism.joints.values()):
-            parts.append(say(_("sizes of the wheels")))
+            parts.append(translate(_("sizes of the wheels")))
         if any(isinstance(joint, CamJoint) for joint in mechanism.joints.values()):
-            parts.append(say(_("motion programs of the cams")))
+            parts.append(translate(_("motion programs of the cams")))
         if mechanism.drivers:
-            parts.append(say(_("laws of the drivers") if len(mechanism.drivers) > 1 else _("law of the driver")))
+            parts.append(
+                translate(_("laws of the drivers") if len(mechanism.drivers) > 1 else _("law of the driver"))
+            )
         if any(dyad_shape(group) for group in self.groups):
-            parts.append(say(_("assembly modes")))
+            parts.append(translate(_("assembly modes")))
         if mechanism.has_loads:
-            parts.append(say(_("masses and loads")))
-        return Node("data", (say(_("Data: {parts}", parts=say(_("; ")).join(parts))),))
+            parts.append(translate(_("masses and loads")))
+        return Node("data", (translate(_("Data: {parts}", parts=translate(_("; ")).join(parts))),))
 
     def _loop(self) -> Node:
-        loop, say = self._over, self.say
+        loop, translate = self._over, self.translate
         step, count = self._step, len(loop.values)
         first = loop.text(float(loop.values[0]))
         line = (
-            say(_("{symbol} = {values}", symbol=loop.symbol, values=say(_(", ")).join(self._values())))
+            translate(_("{symbol} = {values}", symbol=loop.symbol, values=translate(_(", ")).join(self._values())))
             if step is None
-            else say(
+            else translate(
                 _("{symbol} = {first}; Δ{symbol} = {step}", symbol=loop.symbol, first=first, step=loop.text(step))
             )
         )
-        return Node("preparation", (say(_("i = 1; N = {count}", count=count)), line, self._meaning()))
+        return Node("preparation", (translate(_("i = 1; N = {count}", count=count)), line, self._meaning()))
 
     def _values(self) -> list[str]:
         """The positions, of many the first ones and the last."""
@@ -168,9 +170,9 @@ class _Writer:
 
     def _meaning(self) -> str:
         if self._over.symbol == "t":
-            return self.say(_("t: time"))
+            return self.translate(_("t: time"))
         driver = next(iter(self.mechanism.drivers.values()))
-        return self.say(
+        return self.translate(
             _(
                 "{symbol}: coordinate of {driver}",
                 symbol=self._over.symbol,
@@ -199,7 +201,7 @@ class _Writer:
         lines = [self._heading(group)]
         lines += self._driven_within(group)
         key = _("from {outer} to {inner}") if inner else _("on {outer}")
-        lines.append(self.say(key.format(outer=self._listed(outer), inner=self._listed(inner))))
+        lines.append(self.translate(key.format(outer=self._listed(outer), inner=self._listed(inner))))
         call = self._call(group, "k")
         if not call:
             lines += self._closure(group)
@@ -207,7 +209,7 @@ class _Writer:
 
     def _driven(self, group: Group, name: str) -> Node:
         """A driven link: a bar about its pin, or a slide along its guide."""
-        say, (first, *_unused) = self.say, group.tree
+        translate, (first, *_unused) = self.translate, group.tree
         lines = []
         for step in group.tree:
             if step.driver is None:
@@ -217,11 +219,11 @@ class _Writer:
                 if step.turns
                 else _("driven link {link} slides along {joint}")
             )
-            lines.append(say(key.format(link=self._numbered([step.child]), joint=step.joint)))
+            lines.append(translate(key.format(link=self._numbered([step.child]), joint=step.joint)))
             lines.append(self._law(step.driver))
         found = [each for each in self._points_of(group.links) if each not in {s.joint for s in group.tree}]
         if found:
-            lines.append(say(_("finds {points}", points=self._listed(found))))
+            lines.append(translate(_("finds {points}", points=self._listed(found))))
         call = "bark" if first.turns and len(group.links) == 1 else ""
         return Node("call" if call else "process", tuple(lines), call, name)
 
@@ -230,30 +232,30 @@ class _Writer:
         if law.constant_speed is not None:
             unit = "rad/s" if law.rotary else "m/s"
             speed = f"{law.constant_speed:.6g}\u00a0{unit}".replace("-", "−")
-            return self.say(_("constant speed {speed}", speed=speed))
-        return self.say(_("coordinate and rates at t: {law}", law=LABELS.get(law.key, law.key)))
+            return self.translate(_("constant speed {speed}", speed=speed))
+        return self.translate(_("coordinate and rates at t: {law}", law=LABELS.get(law.key, law.key)))
 
     def _driven_within(self, group: Group) -> list[str]:
         """Drivers inside a group that is closed by other joints."""
         if not group.drivers:
             return []
         joints = [self.mechanism.drivers[each].joint for each in group.drivers]
-        laws = self.say(_(", ")).join(dict.fromkeys(map(self._law, group.drivers)))
-        return [self.say(_("driven along {joints}: {laws}", joints=self._listed(joints), laws=laws))]
+        laws = self.translate(_(", ")).join(dict.fromkeys(map(self._law, group.drivers)))
+        return [self.translate(_("driven along {joints}: {laws}", joints=self._listed(joints), laws=laws))]
 
     def _closure(self, group: Group) -> Iterator[str]:
         """How a group that is no dyad is closed."""
-        say, joints = self.say, self._listed([cut.joint for cut in group.cuts])
+        translate, joints = self.translate, self._listed([cut.joint for cut in group.cuts])
         cams = [c.joint for c in group.cuts if isinstance(self.mechanism.joints[c.joint], CamJoint)]
         if cams:
-            yield say(_("lift and its derivatives from the profile of {cams}", cams=self._listed(cams)))
+            yield translate(_("lift and its derivatives from the profile of {cams}", cams=self._listed(cams)))
         if complete_form(group) is not None or dyad_shape(group) is not None:
-            yield say(_("closure in closed form"))
+            yield translate(_("closure in closed form"))
             return
         if in_one_step(group):
-            yield say(_("positions and rates: linear closure of {joints}", joints=joints))
+            yield translate(_("positions and rates: linear closure of {joints}", joints=joints))
             return
-        yield say(
+        yield translate(
             (
                 _("positions: Newton's method on the closure of {joints}, from position i − 1")
                 if self.mechanism.drivers
@@ -261,7 +263,7 @@ class _Writer:
             ).format(joints=joints)
         )
         if self.mechanism.drivers:
-            yield say(_("velocities, accelerations: linear equations"))
+            yield translate(_("velocities, accelerations: linear equations"))
 
     def _call(self, group: Group, ending: str) -> str:
         """The teaching texts' name of what solves a dyad; empty for others, and for one driven inside."""
@@ -287,37 +289,45 @@ class _Writer:
         ]
         if heavy:
             key = _("mass centres of links {links}") if len(heavy) > 1 else _("mass centre of link {links}")
-            parts.append(self.say(key.format(links=self._listed(heavy))))
+            parts.append(self.translate(key.format(links=self._listed(heavy))))
         if parts:
             yield Node(
                 "call",
-                (self.say(_("Further points by link angle and base point: {points}", points=self._listed(parts))),),
+                (
+                    self.translate(
+                        _("Further points by link angle and base point: {points}", points=self._listed(parts))
+                    ),
+                ),
                 "bark",
             )
 
     # forces -----------------------------------------------------------------------------------
     def _forces(self) -> Iterator[Node]:
-        say, mechanism = self.say, self.mechanism
-        parts = [say(_("weights"))] if any(mechanism.gravity) and self._heavy else []
+        translate, mechanism = self.translate, self.mechanism
+        parts = [translate(_("weights"))] if any(mechanism.gravity) and self._heavy else []
         if self._heavy and mechanism.drivers:
-            parts.append(say(_("inertia forces −m·a and couples −J·α")))
+            parts.append(translate(_("inertia forces −m·a and couples −J·α")))
         if mechanism.loads:
             key = _("loads {names}") if len(mechanism.loads) > 1 else _("load {names}")
-            parts.append(say(key.format(names=self._listed(mechanism.loads))))
+            parts.append(translate(key.format(names=self._listed(mechanism.loads))))
         rubbing = self._rubbing()
         if rubbing:
-            parts.append(say(_("friction of {joints}", joints=self._listed(rubbing))))
-        yield Node("process", (say(_("Known forces: {parts}", parts=say(_("; ")).join(parts))),))
+            parts.append(translate(_("friction of {joints}", joints=self._listed(rubbing))))
+        yield Node("process", (translate(_("Known forces: {parts}", parts=translate(_("; ")).join(parts))),))
         for number, group in enumerate(reversed(self.groups)):
             yield self._forces_of(group, FORCES if not number and rubbing else "")
         if rubbing:
             yield Node(
-                "decision", (say(_("Friction settled?")),), jump=FORCES, down=say(_("yes")), across=say(_("no"))
+                "decision",
+                (translate(_("Friction settled?")),),
+                jump=FORCES,
+                down=translate(_("yes")),
+                across=translate(_("no")),
             )
         yield Node(
             "process",
             (
-                say(
+                translate(
                     _("Check: power of the drivers = power of all forces")
                     if mechanism.drivers
                     else _("Check: balance of every link")
@@ -335,54 +345,62 @@ class _Writer:
         return [name for name, joint in joints if joint.friction_arm]
 
     def _forces_of(self, group: Group, name: str) -> Node:
-        say, mechanism = self.say, self.mechanism
+        translate, mechanism = self.translate, self.mechanism
         joints = dict.fromkeys(c.joint for c in (*group.inner_joints, *group.outer_joints))
         alone = not group.unknowns and bool(group.drivers)
-        heading = say(_("driven link {link}", link=self._numbered(group.links))) if alone else self._heading(group)
-        lines = [heading, say(_("forces at {joints}", joints=self._listed(joints)))]
+        heading = (
+            translate(_("driven link {link}", link=self._numbered(group.links))) if alone else self._heading(group)
+        )
+        lines = [heading, translate(_("forces at {joints}", joints=self._listed(joints)))]
         for driver in group.drivers:
             turns = mechanism.joints[mechanism.drivers[driver].joint].coordinate == "turn"
             letter = "M" if turns else "F"
             symbol = f"{letter}_d" if len(mechanism.drivers) == 1 else f"{letter}_d,{driver}"
             lines.append(
-                say((_("balancing torque {symbol}") if turns else _("driving force {symbol}")).format(symbol=symbol))
+                translate(
+                    (_("balancing torque {symbol}") if turns else _("driving force {symbol}")).format(symbol=symbol)
+                )
             )
         call = self._call(group, "f")
         if alone and len(group.links) == 1:
             call = "barf"
         if not call:
-            lines.insert(1, say(_("balance of the links")))
+            lines.insert(1, translate(_("balance of the links")))
         return Node("call" if call else "process", tuple(lines), call, name)
 
     # end --------------------------------------------------------------------------------------
     def _printed(self) -> Node:
-        say, mechanism = self.say, self.mechanism
+        translate, mechanism = self.translate, self.mechanism
         parts = [self._over.symbol] if mechanism.drivers else []
-        parts.append(say(_("angles, points and their rates") if mechanism.drivers else _("angles and points")))
+        parts.append(translate(_("angles, points and their rates") if mechanism.drivers else _("angles and points")))
         if mechanism.has_loads:
-            parts.append(say(_("joint forces")))
+            parts.append(translate(_("joint forces")))
             parts += dict.fromkeys("M_d" if turns else "F_d" for turns in self._efforts())
         key = _("Print position i: {parts}") if mechanism.drivers else _("Print: {parts}")
-        return Node("data", (say(key.format(parts=say(_("; ")).join(parts))),))
+        return Node("data", (translate(key.format(parts=translate(_("; ")).join(parts))),))
 
     def _efforts(self) -> list[bool]:
         joints = self.mechanism.joints
         return [joints[each.joint].coordinate == "turn" for each in self.mechanism.drivers.values()]
 
     def _stepped(self) -> Iterator[Node]:
-        say, symbol = self.say, self._over.symbol
+        translate, symbol = self.translate, self._over.symbol
         key = _("i = i + 1; next {symbol}") if self._step is None else _("i = i + 1; {symbol} = {symbol} + Δ{symbol}")
-        yield Node("process", (say(key.format(symbol=symbol)),), name=NEXT)
-        yield Node("decision", (say(_("i > N?")),), jump=LOOP, down=say(_("yes")), across=say(_("no")))
-        yield Node("data", (say(_("Peak values, limit positions, diagrams")),))
+        yield Node("process", (translate(key.format(symbol=symbol)),), name=NEXT)
+        yield Node(
+            "decision", (translate(_("i > N?")),), jump=LOOP, down=translate(_("yes")), across=translate(_("no"))
+        )
+        yield Node("data", (translate(_("Peak values, limit positions, diagrams")),))
 
     # names ------------------------------------------------------------------------------------
     def _heading(self, group: Group) -> str:
         key = _("{signature}: links {links}") if len(group.links) > 1 else _("{signature}: link {links}")
-        return self.say(key.format(signature=group.signature, links=self._numbered(group.links)))
+        return self.translate(key.format(signature=group.signature, links=self._numbered(group.links)))
 
     def _numbered(self, links: Sequence[str]) -> str:
-        return self.say(_(", ")).join(f"{self.numbers[name]} {link_label(name, self.language)}" for name in links)
+        return self.translate(_(", ")).join(
+            f"{self.numbers[name]} {link_label(name, self.language)}" for name in links
+        )
 
     def _points_of(self, links: Sequence[str]) -> list[str]:
         """Joints on links, each once, those of the frame left out."""
@@ -395,4 +413,4 @@ class _Writer:
         shown = list(dict.fromkeys(map(str, names)))
         if len(shown) > LONGEST:
             shown = [*shown[: LONGEST - 2], "…", shown[-1]]
-        return self.say(_(", ")).join(shown)
+        return self.translate(_(", ")).join(shown)

@@ -105,7 +105,7 @@ def _lines(pair: GearPair, language: str) -> list[str]:
         angle=number(pair.working_pressure_angle, "angle"),
         ratio=f"{pair.contact_ratio:.4g}",
     ).translate(language)
-    texts = [each.say(language) if isinstance(each, Message) else each for each in pair.findings]
+    texts = [each.translate(language) if isinstance(each, Message) else each for each in pair.findings]
     return [numbers, *texts]
 
 

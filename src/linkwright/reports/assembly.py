@@ -65,31 +65,31 @@ def _add_calculation(document: Document, part: Part, problem: Problem | TaskFile
     from linkwright.reports.sections.synthesis import task_chapter
 
     name = in_language(problem.name, document.language)
-    say, language = document.say, document.language
+    translate, language = document.translate, document.language
     try:
         for block in (
-            task_chapter(problem, part.own, say, language)
+            task_chapter(problem, part.own, translate, language)
             if isinstance(problem, TaskFile)
-            else calculation(problem, part.own, say, language)
+            else calculation(problem, part.own, translate, language)
         ):
             if isinstance(block, Paragraph) and block.kind == "missing":
                 _miss(document, name, plain(block.text))
             found = _own(block.text, part.own, document, name) if isinstance(block, OwnText) else (block,)
             document.blocks += (new for each in found for new in _parts_of(each, document))
     except LinkwrightError as error:
-        sentence = error.say(document.language)
+        sentence = error.translate(document.language)
         document.blocks.append(Heading(literal(name), 1))
         document.blocks.append(
-            Paragraph(document.say(_("Left out: {sentence}", sentence=literal(sentence))), "missing")
+            Paragraph(document.translate(_("Left out: {sentence}", sentence=literal(sentence))), "missing")
         )
         _miss(document, name, sentence)
 
 
 def _add(document: Document, within: Part, part: Section, *, asked: bool) -> None:
     """Adds a section; what it cannot show becomes a paragraph that says why, and one without content nothing."""
-    say, cases = document.say, within.cases
+    translate, cases = document.translate, within.cases
     shift, prefix = (1, f"{within.within}: ") if within.within else (0, "")
-    title = say(part.title)
+    title = translate(part.title)
     found: list[Block] = []
     text = within.own.text.get(part.name, "")
     own = _own(text, within.own, document, prefix + title) if text else ()
@@ -101,11 +101,11 @@ def _add(document: Document, within: Part, part: Section, *, asked: bool) -> Non
     except LinkwrightError as error:
         named = asked or part.name in within.own.sections
         if named or not (part.optional and isinstance(error, Missing)):
-            sentence = error.say(document.language)
-            found.append(Paragraph(say(_("Left out: {sentence}", sentence=literal(sentence))), "missing"))
+            sentence = error.translate(document.language)
+            found.append(Paragraph(translate(_("Left out: {sentence}", sentence=literal(sentence))), "missing"))
             _miss(document, prefix + title, sentence)
     except Exception as error:
-        sentence = say(
+        sentence = translate(
             _(
                 "an unexpected error ({kind}: {message}); please report it with the model file",
                 kind=type(error).__name__,
@@ -121,7 +121,7 @@ def _add(document: Document, within: Part, part: Section, *, asked: bool) -> Non
 
 def _miss(document: Document, title: str, sentence: str) -> None:
     """Notes what a chapter lacks, once."""
-    message = document.say(_("{name}: {cause}", name=title, cause=sentence))
+    message = document.translate(_("{name}: {cause}", name=title, cause=sentence))
     if message not in document.missing:
         document.missing.append(message)
 
@@ -137,7 +137,7 @@ def _parts_of(block: Block, document: Document) -> Iterator[Block]:
         first, *rest = fitted(replace(each, rows=rows), WIDEST)
         yield first
         for part in rest:
-            caption = document.say(_("{caption} (continued)", caption=each.caption)) if each.caption else ""
+            caption = document.translate(_("{caption} (continued)", caption=each.caption)) if each.caption else ""
             yield replace(part, caption=caption)
 
     yield from changed(block, parted)
@@ -175,14 +175,14 @@ def note_dangling(document: Document) -> None:
     for label in dict.fromkeys(asked):
         if label not in numbers.labels:
             document.missing.append(
-                _('a text refers to "{label}", but nothing in the report has this label', label=label).say(
+                _('a text refers to "{label}", but nothing in the report has this label', label=label).translate(
                     document.language
                 )
             )
     listed = any(isinstance(block, Sources) for block in numbers.blocks)
     if any(span.kind == "source" for span in parts) and not listed:
         document.missing.append(
-            _("texts cite sources, but the report has no section references; add it to the sections").say(
+            _("texts cite sources, but the report has no section references; add it to the sections").translate(
                 document.language
             )
         )

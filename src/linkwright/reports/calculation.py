@@ -35,57 +35,57 @@ class OwnText:
     text: str
 
 
-def calculation(problem: Problem, own: Settings, say: Translate, language: str) -> Iterator[Block | OwnText]:
+def calculation(problem: Problem, own: Settings, translate: Translate, language: str) -> Iterator[Block | OwnText]:
     """The blocks of one calculation with the settings of its file, under a heading with its name; raises
     LinkwrightError where it has no result."""
     found = problem.solve()
     texts = dict(own.text)
-    places = {say(heading): name for heading, name in PLACES.items()}
-    for block in _chapters(problem, found, own, say, language):
+    places = {translate(heading): name for heading, name in PLACES.items()}
+    for block in _chapters(problem, found, own, translate, language):
         yield block
         name = places.get(block.text) if isinstance(block, Heading) else None
         if name is not None and name in texts:
             yield OwnText(texts.pop(name))
     for name, text in texts.items():
-        yield Heading(say(SECTIONS[name].title), 2)
+        yield Heading(translate(SECTIONS[name].title), 2)
         yield OwnText(text)
     if own.errata:
-        yield Heading(say(_("Mistakes of the source")), 2)
-        yield from errata_blocks(own.errata, in_language(own.source or problem.source, language), say)
+        yield Heading(translate(_("Mistakes of the source")), 2)
+        yield from errata_blocks(own.errata, in_language(own.source or problem.source, language), translate)
 
 
-def _chapters(problem: Problem, found: Result, own: Settings, say: Translate, language: str) -> Iterator[Block]:
+def _chapters(problem: Problem, found: Result, own: Settings, translate: Translate, language: str) -> Iterator[Block]:
     """Heading, purpose, given data, sketch, solution and results."""
     yield Heading(literal(in_language(found.title, language)), 1)
     purpose, source = (
         in_language(each, language) for each in (own.purpose or problem.purpose, own.source or problem.source)
     )
     if purpose or source:
-        yield Heading(say(_("Purpose")), 2)
+        yield Heading(translate(_("Purpose")), 2)
         if purpose:
             yield Paragraph(literal(purpose))
         if source:
-            yield Paragraph(say(_("Source: {source}.", source=literal(source))))
-    data = list(given_data(problem, say))
+            yield Paragraph(translate(_("Source: {source}.", source=literal(source))))
+    data = list(given_data(problem, translate))
     if data:
-        yield Heading(say(_("Given data")), 2)
+        yield Heading(translate(_("Given data")), 2)
         yield from data
-    yield from _sketch(problem, say, language)
-    yield from numbers_and_way(found, say, language, 2)
+    yield from _sketch(problem, translate, language)
+    yield from numbers_and_way(found, translate, language, 2)
 
 
-def numbers_and_way(found: Result, say: Translate, language: str, level: int) -> Iterator[Block]:
+def numbers_and_way(found: Result, translate: Translate, language: str, level: int) -> Iterator[Block]:
     """The worked way, the numbers, and diagrams of them, under headings of a level."""
-    yield Heading(say(_("Solution")), level)
-    for step in found.tidy_steps(say):
+    yield Heading(translate(_("Solution")), level)
+    for step in found.tidy_steps(translate):
         yield Heading(symbols(step.title), level + 1)
         yield from step_blocks(step)
-    yield Heading(say(_("Results")), level)
-    yield from _results(found, say, language)
-    yield from _pictures(found, say, language)
+    yield Heading(translate(_("Results")), level)
+    yield from _results(found, translate, language)
+    yield from _pictures(found, translate, language)
 
 
-def _results(found: Result, say: Translate, language: str) -> Iterator[Block]:
+def _results(found: Result, translate: Translate, language: str) -> Iterator[Block]:
     head = (_("name"), _("value"), _("unit"), _("remark"))
     for table in found.tables(language)[1:]:
         width = 4 if any(row[3] for row in table.rows) else 3
@@ -115,25 +115,25 @@ def _label(text: str) -> str:
     return symbols(text)
 
 
-def _sketch(problem: Problem, say: Translate, language: str) -> Iterator[Block]:
+def _sketch(problem: Problem, translate: Translate, language: str) -> Iterator[Block]:
     """The sketch of what is calculated, where its kind has one."""
     from linkwright.plotting.sketches.base import sketch
 
     try:
         drawn = sketch(problem, language)
     except LinkwrightError as error:
-        yield Paragraph(literal(error.say(language)), "missing")
+        yield Paragraph(literal(error.translate(language)), "missing")
         return
     if drawn is not None:
-        yield Heading(say(_("Sketch")), 2)
+        yield Heading(translate(_("Sketch")), 2)
         yield Figure(
-            say(_("Supports, loads and dimensions: {name}", name=literal(in_language(problem.name, language)))),
+            translate(_("Supports, loads and dimensions: {name}", name=literal(in_language(problem.name, language)))),
             ((drawn.svg, WIDE),),
             tallest=TALLEST,
         )
 
 
-def _pictures(found: Result, say: Translate, language: str) -> Iterator[Block]:
+def _pictures(found: Result, translate: Translate, language: str) -> Iterator[Block]:
     """Its own drawing, where it has one, and its diagrams."""
     draw = getattr(found, "draw", None)
     if draw is not None:
@@ -147,10 +147,12 @@ def _pictures(found: Result, say: Translate, language: str) -> Iterator[Block]:
             svg = picture(found.plot(kind, language=language, title=""))
         except LinkwrightError as error:
             if RESULT_DIAGRAMS[kind].usual:
-                yield Paragraph(literal(error.say(language)), "missing")
+                yield Paragraph(literal(error.translate(language)), "missing")
             continue
-        caption = f"{literal(in_language(found.title, language))}: {say(RESULT_DIAGRAMS[kind].title)}"
-        yield (to_scale(say, caption, svg) if RESULT_DIAGRAMS[kind].to_scale else Figure(caption, ((svg, 0.75),)))
+        caption = f"{literal(in_language(found.title, language))}: {translate(RESULT_DIAGRAMS[kind].title)}"
+        yield (
+            to_scale(translate, caption, svg) if RESULT_DIAGRAMS[kind].to_scale else Figure(caption, ((svg, 0.75),))
+        )
 
 
 #: Symbols of single values, by key, or by kind and key where a kind has another one.
@@ -270,51 +272,51 @@ NAMED = (
 )
 
 
-def given_data(problem: Problem, say: Translate) -> Iterator[Block]:
+def given_data(problem: Problem, translate: Translate) -> Iterator[Block]:
     """A table of single values; of every mapping of names and every list of mappings a table of its own."""
     data, single, tables = problem.given(), [], []
     for key, value in data.items():
         if key in STATED:
             continue
         if key in NAMED and isinstance(value, Mapping) and value:
-            tables.append(_by_name(problem.kind, key, value, say))
+            tables.append(_by_name(problem.kind, key, value, translate))
         elif isinstance(value, Sequence) and value and all(isinstance(each, Mapping) for each in value):
             numbered = {str(i): each for i, each in enumerate(value, 1)}
-            tables.append(_by_name(problem.kind, key, numbered, say))
+            tables.append(_by_name(problem.kind, key, numbered, translate))
         else:
-            single += list(_rows(problem.kind, (key,), value, say))
+            single += list(_rows(problem.kind, (key,), value, translate))
     if single:
-        head = tuple(map(say, (_("name"), _("symbol"), _("value"), _("unit"))))
-        yield TableBlock(say(_("Given data")), head, tuple(single), "<^><")
+        head = tuple(map(translate, (_("name"), _("symbol"), _("value"), _("unit"))))
+        yield TableBlock(translate(_("Given data")), head, tuple(single), "<^><")
     yield from tables
 
 
-def _rows(kind: str, path: tuple[str, ...], value: Any, say: Translate) -> Iterator[tuple[str, ...]]:
+def _rows(kind: str, path: tuple[str, ...], value: Any, translate: Translate) -> Iterator[tuple[str, ...]]:
     """Rows of a single value; of a mapping one for each of its values, named with what they belong to."""
     if isinstance(value, Mapping):
         for key, each in value.items():
-            yield from _rows(kind, (*path, str(key)), each, say)
+            yield from _rows(kind, (*path, str(key)), each, translate)
         return
-    name, symbol = " – ".join(dict.fromkeys(_word(kind, part, say) for part in path)), _symbol(kind, path)
-    shown, unit = _split(value, say)
+    name, symbol = " – ".join(dict.fromkeys(_word(kind, part, translate) for part in path)), _symbol(kind, path)
+    shown, unit = _split(value, translate)
     yield literal(name), _math(symbol), shown, literal(unit)
 
 
-def _by_name(kind: str, key: str, things: Mapping[str, Any], say: Translate) -> TableBlock:
+def _by_name(kind: str, key: str, things: Mapping[str, Any], translate: Translate) -> TableBlock:
     """Things by name, a column for every key that one of them has."""
     bare = ("force",) if key in ("forces", "loads") else ("value",)
     flat = {name: dict(_flat(each, bare=bare)) for name, each in things.items()}
     columns = list(dict.fromkeys(column for each in flat.values() for column in each))
-    head = [say(_("name"))]
+    head = [translate(_("name"))]
     for column in columns:
         symbol = _math(_symbol(kind, (key, *column)))
-        word = literal(" – ".join(_word(kind, part, say) for part in column))
+        word = literal(" – ".join(_word(kind, part, translate) for part in column))
         head.append(f"{word} {symbol}" if symbol else word)
     rows = [
-        (literal(name), *(_cell(each[column], say) if column in each else "–" for column in columns))
+        (literal(name), *(_cell(each[column], translate) if column in each else "–" for column in columns))
         for name, each in flat.items()
     ]
-    caption = say(_("Given: {what}", what=_word(kind, key, say)))
+    caption = translate(_("Given: {what}", what=_word(kind, key, translate)))
     return TableBlock(caption, tuple(head), tuple(rows), "<" + "^" * len(columns))
 
 
@@ -327,10 +329,10 @@ def _flat(value: Any, path: tuple[str, ...] = (), *, bare: tuple[str, ...]) -> I
         yield path or bare, value
 
 
-def _word(kind: str, key: str, say: Translate) -> str:
+def _word(kind: str, key: str, translate: Translate) -> str:
     """What a key is called; a name that the user chose is itself."""
     named = CALCULATION_KEYS.get(f"{kind}_{key}") or CALCULATION_KEYS.get(key)
-    return say(named) if named else key
+    return translate(named) if named else key
 
 
 def _symbol(kind: str, path: tuple[str, ...]) -> str:
@@ -345,17 +347,17 @@ def _math(symbol: str) -> str:
     return noted(symbol) if symbol else ""
 
 
-def _cell(value: Any, say: Translate) -> str:
-    shown, unit = _split(value, say)
+def _cell(value: Any, translate: Translate) -> str:
+    shown, unit = _split(value, translate)
     return shown if not unit else f"{shown}{'' if unit == '°' else ' '}{literal(unit)}"
 
 
-def _split(value: Any, say: Translate) -> tuple[str, str]:
+def _split(value: Any, translate: Translate) -> tuple[str, str]:
     """A value as it is printed, and its unit."""
     if isinstance(value, bool):
-        return say(_("yes") if value else _("no")), ""
+        return translate(_("yes") if value else _("no")), ""
     if isinstance(value, list | tuple):
-        parts = [_split(each, say) for each in value]
+        parts = [_split(each, translate) for each in value]
         shared = {unit for _unused, unit in parts if unit}
         if len(shared) == 1 and all(unit or text in ("0", "0.0") for text, unit in parts):
             return f"({', '.join(text for text, _unused in parts)})", shared.pop()

@@ -237,7 +237,7 @@ class Document:
     """
 
     title: str
-    say: Translate
+    translate: Translate
     language: str = "en"
     lines: tuple[str, ...] = ()
     blocks: list[Block] = field(default_factory=list)
@@ -340,9 +340,9 @@ class Numbers:
 
     def name(self, index: int) -> str:
         """How a block is called in a sentence: ``Table 3.1``."""
-        block, say = self.blocks[index], self.document.say
+        block, translate = self.blocks[index], self.document.translate
         kind = type(block).__name__.lower()
-        return say(NAMES[kind].format(number=self.of.get(index, "")))
+        return translate(NAMES[kind].format(number=self.of.get(index, "")))
 
 
 def _numbered_sources(blocks: Sequence[Block]) -> dict[str, int]:

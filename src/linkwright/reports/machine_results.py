@@ -64,7 +64,7 @@ class ReportContext:
 
     def __init__(self, mechanism: Mechanism, settings: Settings, language: str, source: str = "") -> None:
         self.mechanism, self.settings, self.language, self.source = mechanism, settings, language, source
-        self.say: Translate = speaker(language)
+        self.translate: Translate = speaker(language)
         #: Why the numbered positions do not begin at the limit position that the file names.
         self.unnumbered = ""
         #: Metrics that the report shows.
@@ -249,7 +249,7 @@ class ReportContext:
         except LinkwrightError as error:
             if chosen:
                 reason = self.message(error)
-                self.unnumbered = self.say(
+                self.unnumbered = self.translate(
                     _(
                         "The positions are numbered from the start of the motion, not from {text}: {reason}.",
                         text=chosen,
@@ -271,12 +271,14 @@ class ReportContext:
     @cached_property
     def heads(self) -> ColumnHeadings:
         """Symbols of results as heads of columns."""
-        return ColumnHeadings(self.mechanism, self.say)
+        return ColumnHeadings(self.mechanism, self.translate)
 
     @property
     def links_text(self) -> str:
         """The links with the numbers that stand in symbols."""
-        return self.say(_("Links: {links}.", links=", ".join(numbered_links(self.heads.numbers, self.language))))
+        return self.translate(
+            _("Links: {links}.", links=", ".join(numbered_links(self.heads.numbers, self.language)))
+        )
 
     # pictures -----------------------------------------------------------------------------------
     def diagram(self, kind: str, source: object = None, **options: object) -> str:
@@ -294,7 +296,7 @@ class ReportContext:
 
     def message(self, error: LinkwrightError) -> str:
         """What an error says, in the report's language."""
-        return error.say(self.language)
+        return error.translate(self.language)
 
     def sentence(self, text: str) -> str:
         """A sentence in the report's language."""

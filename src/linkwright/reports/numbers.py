@@ -31,8 +31,8 @@ _NEGATIVE = re.compile(r"-(?=\d)")
 class ColumnHeadings:
     """Heads of columns with the symbols of the worked solution; links are numbered in the order of the file."""
 
-    def __init__(self, mechanism: Mechanism, say: Translate) -> None:
-        self.mechanism, self.say = mechanism, say
+    def __init__(self, mechanism: Mechanism, translate: Translate) -> None:
+        self.mechanism, self.translate = mechanism, translate
         self.numbers = link_numbers(mechanism)
 
     def head(self, output: Output) -> tuple[str, float]:

@@ -58,14 +58,14 @@ class Report:
                         "no font here has {characters}: boxes stand there in the PDF; install a font that "
                         "has them (small pictures: Noto Color Emoji) or write a word instead",
                         characters=" ".join(lost),
-                    ).say(self.document.language)
+                    ).translate(self.document.language)
                 )
             return made
         if ending == ".docx":
             from linkwright.reports.word_pages import word
 
             if any(isinstance(block, Source) for block in walk(self.document.blocks)):
-                self._miss(_("Word files show texts in Typst as they are written").say(self.document.language))
+                self._miss(_("Word files show texts in Typst as they are written").translate(self.document.language))
             return word(self.document)
         if ending == ".typ":
             from linkwright.reports.typst_pages import pages
@@ -232,13 +232,13 @@ def _picture_folder(folder: str | Path, file: str) -> str:
 
 def cover(own: Settings, document: Document) -> Cover | None:
     """The page before all others, None where the file asks for none."""
-    words, say = own.cover, document.say
+    words, translate = own.cover, document.translate
     if words is None:
         return None
-    rows = [(say(COVER_ROWS[key]), value) for key, value in words.rows]
+    rows = [(translate(COVER_ROWS[key]), value) for key, value in words.rows]
     above = tuple(filter(None, (words.school, own.course)))
     return Cover(
-        words.kind or say(_("Course design report")),
+        words.kind or translate(_("Course design report")),
         document.title,
         above,
         (*rows, *words.fields),

@@ -240,7 +240,9 @@ class _Writer:
             title = f"#lw-title[{_words(document.title)}]\n"
             title += "".join(f"#lw-under[{_words(line)}]\n" for line in document.lines)
         contents = (
-            "" if not document.contents else f"#outline(title: [{_words(document.say(_('Contents')))}], depth: 2)\n"
+            ""
+            if not document.contents
+            else f"#outline(title: [{_words(document.translate(_('Contents')))}], depth: 2)\n"
         )
         if document.contents and document.cover is not None:
             contents += "#if not lw-is-html { pagebreak(weak: true) }\n"

@@ -129,7 +129,7 @@ class _Writer:
         from docx.shared import Inches, Pt
 
         head = self.file.add_paragraph()
-        head.add_run(self.document.say(_("Contents"))).bold = True
+        head.add_run(self.document.translate(_("Contents"))).bold = True
         headings = [
             (i, block)
             for i, block in enumerate(self.numbers.blocks)

@@ -73,7 +73,7 @@ class Background:
             try:
                 work(Job(self, number, language))
             except LinkwrightError as error:
-                self.add(number, {"sentence": error.say(language)})
+                self.add(number, {"sentence": error.translate(language)})
             except Stopped:
                 raise
             except Exception as error:

@@ -190,7 +190,7 @@ def solved(text: str, language: str, folder: str = "") -> Plain:
             found["picture"] = completed(found["picture"], motion)
             found["model"] = page_data([(motion, text)], language)["models"][0]
     except LinkwrightError as error:
-        found["sentence"] = error.say(language)
+        found["sentence"] = error.translate(language)
     return found
 
 
@@ -209,7 +209,7 @@ def error_text(error: LinkwrightError, language: str) -> str:
     """What is wrong; of a model its findings without the name of a file, which the page's text has not."""
     if isinstance(error, ModelError):
         error = ModelError([replace(each, where="") for each in error.findings])
-    return error.say(language)
+    return error.translate(language)
 
 
 def language_of(asked: object) -> str:

@@ -247,14 +247,14 @@ _ARM, _ARC = 24.0, 17.0
 _CLEAR, _LEADER = 1.2, 9.0
 
 
-def marked(picture: Picture, paper: Paper, design: CamDesign, say: Translate, outer: float) -> list[Name]:
+def marked(picture: Picture, paper: Paper, design: CamDesign, translate: Translate, outer: float) -> list[Name]:
     """Draws the marks of a profile within the distance ``outer`` (m); gives their names."""
     return [
         *_steepest(picture, paper, design),
         *_tightest(picture, paper, design, outer),
         *_radii(picture, paper, design),
         *_turning(picture, paper, design),
-        *_curves(picture, paper, design, say),
+        *_curves(picture, paper, design, translate),
     ]
 
 
@@ -347,7 +347,7 @@ def _turning(picture: Picture, paper: Paper, design: CamDesign) -> Iterator[Name
     yield Name(indexed("ω", "1" if cam.follower.oscillating else ""), places, clear=_CLEAR)
 
 
-def _curves(picture: Picture, paper: Paper, design: CamDesign, say: Translate) -> Iterator[Name]:
+def _curves(picture: Picture, paper: Paper, design: CamDesign, translate: Translate) -> Iterator[Name]:
     """The names of profile and pitch curve, with leaders from near the ends of the free directions."""
     phi = np.linspace(0.0, 2 * math.pi, 721)[:-1]
     low, high = _free(design)
@@ -360,7 +360,7 @@ def _curves(picture: Picture, paper: Paper, design: CamDesign, say: Translate) -
         point = curve[int(np.argmin(np.abs(np.angle(curve / ray))))]
         end = (max(far, paper.length(abs(point))) + _LEADER) * pair(ray)
         picture.line([paper.point(point), end])
-        yield Name(as_runs(say(title)), [end], clear=0.6)
+        yield Name(as_runs(translate(title)), [end], clear=0.6)
 
 
 def checks_text(design: CamDesign) -> Runs:

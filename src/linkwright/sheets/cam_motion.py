@@ -47,8 +47,8 @@ class MotionPanel(Panel):
     name, rank = "motion", 1.0
     smallest = 130.0
 
-    def __init__(self, design: CamDesign, say: Translate, largest: float) -> None:
-        self.design, self.say, self.largest = design, say, largest
+    def __init__(self, design: CamDesign, translate: Translate, largest: float) -> None:
+        self.design, self.translate, self.largest = design, translate, largest
         program = design.cam.program
         self.places, self.phases = divided(program), phases(program)
         self.strips = strips(design)
@@ -78,7 +78,7 @@ class MotionPanel(Panel):
             scales.append(graphical(strip.symbol + strip.index, each, strip.unit))
             top = below
         self._boundaries(picture, wide, between, top)
-        lines = [as_runs(self.say(_("Follower motion with divided angles")))]
+        lines = [as_runs(self.translate(_("Follower motion with divided angles")))]
         lines += list(_in_lines([graphical("δ", mu, "°"), *scales], 1.15 * wide))
         return Drawn(picture, tuple(lines))
 

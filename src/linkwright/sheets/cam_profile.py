@@ -48,8 +48,8 @@ class ProfilePanel(Panel):
     name, rank = "profile", 0.5
     smallest, largest = 90.0, 420.0
 
-    def __init__(self, design: CamDesign, say: Translate) -> None:
-        self.design, self.say = design, say
+    def __init__(self, design: CamDesign, translate: Translate) -> None:
+        self.design, self.translate = design, translate
         self.places = divided(design.cam.program)
         self.at = inverted(design, self.places)
         self.turn = np.linspace(0.0, 2 * math.pi, _DENSE + 1)
@@ -74,7 +74,7 @@ class ProfilePanel(Panel):
         names = self._followers(picture, paper)
         self._curves(picture, paper)
         self._first(picture, paper)
-        names += marked(picture, paper, self.design, self.say, self.outer)
+        names += marked(picture, paper, self.design, self.translate, self.outer)
         put(picture, [replace(each, height=self.letters) for each in names])
         return Drawn(picture, tuple(self._caption(reduction)), scale_text(reduction))
 
@@ -191,12 +191,12 @@ class ProfilePanel(Panel):
             picture.circle(paper.point(trace), 0.8, "thin", fill="paper")
 
     def _caption(self, reduction: float) -> Sequence[Runs]:
-        lines = [as_runs(self.say(_("Cam profile by inversion")))]
+        lines = [as_runs(self.translate(_("Cam profile by inversion")))]
         lines.append(joined(graphical("l", 1e-3 * reduction, "m"), f"  ({scale_text(reduction)})"))
         if checks := checks_text(self.design):
             lines.append(checks)
         if self.design.cam.conjugate is not None:
-            lines.append(as_runs(self.say(_("dashed: second cam of the pair"))))
+            lines.append(as_runs(self.translate(_("dashed: second cam of the pair"))))
         return lines
 
 
@@ -226,8 +226,8 @@ class DevelopmentPanel(Panel):
     name, rank = "profile", 0.5
     smallest, largest = 90.0, 420.0
 
-    def __init__(self, design: CamDesign, say: Translate) -> None:
-        self.design, self.say = design, say
+    def __init__(self, design: CamDesign, translate: Translate) -> None:
+        self.design, self.translate = design, translate
         self.places = np.append(divided(design.cam.program), 2 * math.pi)
         self.radius = design.cam.barrel_radius or 0.0
         phi = np.minimum(np.linspace(0.0, 2 * math.pi, _DENSE + 1), np.nextafter(2 * math.pi, 0.0))
@@ -291,11 +291,11 @@ class DevelopmentPanel(Panel):
             place = paper.point(curve[round(share * (len(curve) - 1))])
             side = place + _LEADER
             picture.line([place, side])
-            names.append(Name(as_runs(self.say(title)), [side], clear=0.6))
+            names.append(Name(as_runs(self.translate(title)), [side], clear=0.6))
         return names
 
     def _caption(self, reduction: float) -> Sequence[Runs]:
-        lines = [as_runs(self.say(_("Groove of the barrel cam, developed")))]
+        lines = [as_runs(self.translate(_("Groove of the barrel cam, developed")))]
         lines.append(joined(graphical("l", 1e-3 * reduction, "m"), f"  ({scale_text(reduction)})"))
         if checks := checks_text(self.design):
             lines.append(checks)

@@ -123,7 +123,7 @@ def zone_count(length: float) -> int:
     return max(2, 2 * round(length / ZONE / 2))
 
 
-def control_bar(say: Translate) -> Picture:
+def control_bar(translate: Translate) -> Picture:
     """A line of 100 mm with ticks each 10 mm: the sheet is true to scale where it measures 100 mm in print."""
     picture = Picture()
     picture.line([(0.0, 6.5), (BAR, 6.5)])
@@ -132,7 +132,7 @@ def control_bar(say: Translate) -> Picture:
     for number in (0, 50, 100):
         anchor = {0: "start", 50: "middle", 100: "end"}[number]
         picture.text((number, 10.5), str(number), MIN_TEXT, anchor)  # type: ignore[arg-type]
-    picture.text((0.0, 1.2), say(_("Print at 100 %: this bar is 100 mm long.")), TEXT)
+    picture.text((0.0, 1.2), translate(_("Print at 100 %: this bar is 100 mm long.")), TEXT)
     return picture
 
 
@@ -246,23 +246,25 @@ def _halves(text: str, width: float, height: float) -> list[str]:
     return []
 
 
-def gb_block(fields: Fields, say: Translate) -> TitleBlock:
+def gb_block(fields: Fields, translate: Translate) -> TitleBlock:
     """180 × 56 mm: changes, signatures, others, name and code, after the example of GB/T 10609.1-2008."""
-    return TitleBlock(180.0, 56.0, (*_gb_changes(say), *_gb_signatures(fields, say), *_gb_rest(fields, say)))
+    return TitleBlock(
+        180.0, 56.0, (*_gb_changes(translate), *_gb_signatures(fields, translate), *_gb_rest(fields, translate))
+    )
 
 
-def _gb_changes(say: Translate) -> Iterator[Cell]:
+def _gb_changes(translate: Translate) -> Iterator[Cell]:
     heads = (_("Mark"), pgettext("sheet", "No."), _("Zone"), _("Change"), _("Signed"), _("Date"))
     x = 0.0
     for width, head in zip((10, 10, 16, 16, 12, 16), heads, strict=True):
         for row in range(3):
             yield Cell(x, 7.0 * row, width, 7.0)
-        yield Cell(x, 21.0, width, 7.0, say(head), 3.5 if width > 10 else 2.5)
+        yield Cell(x, 21.0, width, 7.0, translate(head), 3.5 if width > 10 else 2.5)
         x += width
     yield Cell(0, 0, 80, 28, thick=True)
 
 
-def _gb_signatures(fields: Fields, say: Translate) -> Iterator[Cell]:
+def _gb_signatures(fields: Fields, translate: Translate) -> Iterator[Cell]:
     people = (
         (_("Drawn"), fields.student, fields.date if fields.student else ""),
         (pgettext("sheet", "Adviser"), fields.adviser, ""),
@@ -272,25 +274,27 @@ def _gb_signatures(fields: Fields, say: Translate) -> Iterator[Cell]:
     others = (_("Stand."), None, None, _("Appr."))
     for row, (head, name, date) in enumerate(people):
         y = 28.0 + 7.0 * row
-        yield Cell(0, y, 12, 7, say(head), 3.5)
+        yield Cell(0, y, 12, 7, translate(head), 3.5)
         yield Cell(12, y, 12, 7, name, 3.5)
         yield Cell(24, y, 16, 7, date, 3.5)
-        yield Cell(40, y, 12, 7, say(other) if (other := others[row]) else "", 3.5)
+        yield Cell(40, y, 12, 7, translate(other) if (other := others[row]) else "", 3.5)
         yield Cell(52, y, 12, 7)
         yield Cell(64, y, 16, 7)
     yield Cell(0, 28, 80, 28, thick=True)
 
 
-def _gb_rest(fields: Fields, say: Translate) -> Iterator[Cell]:
+def _gb_rest(fields: Fields, translate: Translate) -> Iterator[Cell]:
     yield Cell(80, 0, 50, 28, fields.title, 5.0, thick=True)
-    yield Cell(80, 28, 26, 7, say(_("Stage")), 3.5)
-    yield Cell(106, 28, 12, 7, say(_("Mass")), 3.5)
-    yield Cell(118, 28, 12, 7, say(_("Scale")), 3.5)
+    yield Cell(80, 28, 26, 7, translate(_("Stage")), 3.5)
+    yield Cell(106, 28, 12, 7, translate(_("Mass")), 3.5)
+    yield Cell(118, 28, 12, 7, translate(_("Scale")), 3.5)
     for k in range(4):
         yield Cell(80 + 6.5 * k, 35, 6.5, 12)
     yield Cell(106, 35, 12, 12)
     yield Cell(118, 35, 12, 12, fields.scale, 3.5)
-    yield Cell(80, 47, 50, 9, say(_("Sheet {sheet} of {sheets}", sheet=fields.sheet, sheets=fields.sheets)), 3.5)
+    yield Cell(
+        80, 47, 50, 9, translate(_("Sheet {sheet} of {sheets}", sheet=fields.sheet, sheets=fields.sheets)), 3.5
+    )
     yield Cell(80, 28, 50, 28, thick=True)
     yield Cell(130, 0, 50, 18, _joined(fields.school, fields.faculty), 5.0, thick=True)
     yield Cell(130, 18, 50, 20, fields.drawing, 7.0, thick=True)
@@ -298,7 +302,7 @@ def _gb_rest(fields: Fields, say: Translate) -> Iterator[Cell]:
     yield Cell(130, 47, 50, 9, _joined(fields.class_name, fields.student_number if fields.number else ""), thick=True)
 
 
-def school_block(fields: Fields, say: Translate) -> TitleBlock:
+def school_block(fields: Fields, translate: Translate) -> TitleBlock:
     """140 × 40 mm: drawing, scale, number, class, persons, title of the task, school, sheet of sheets."""
     cells = [Cell(0, 0, 60, 16, fields.drawing, 7.0)]
     right = (
@@ -307,8 +311,8 @@ def school_block(fields: Fields, say: Translate) -> TitleBlock:
     )
     for row, (head, text, other, value) in enumerate(right):
         y = 8.0 * row
-        cells += [Cell(60, y, 15, 8, say(head)), Cell(75, y, 25, 8, text)]
-        cells += [Cell(100, y, 15, 8, say(other)), Cell(115, y, 25, 8, value)]
+        cells += [Cell(60, y, 15, 8, translate(head)), Cell(75, y, 25, 8, text)]
+        cells += [Cell(100, y, 15, 8, translate(other)), Cell(115, y, 25, 8, value)]
     people = (
         (_("Drawn"), fields.student, fields.date),
         (pgettext("sheet", "Adviser"), fields.adviser, ""),
@@ -316,36 +320,36 @@ def school_block(fields: Fields, say: Translate) -> TitleBlock:
     )
     for row, (head, name, date) in enumerate(people):
         y = 16.0 + 8.0 * row
-        cells += [Cell(0, y, 18, 8, say(head)), Cell(18, y, 22, 8, name), Cell(40, y, 20, 8, date)]
+        cells += [Cell(0, y, 18, 8, translate(head)), Cell(18, y, 22, 8, name), Cell(40, y, 20, 8, date)]
     cells += [
         Cell(60, 16, 80, 8, fields.title, 5.0),
         Cell(60, 24, 80, 8, _joined(fields.school, fields.faculty), 5.0),
-        Cell(60, 32, 80, 8, say(_("Sheet {sheet} of {sheets}", sheet=fields.sheet, sheets=fields.sheets))),
+        Cell(60, 32, 80, 8, translate(_("Sheet {sheet} of {sheets}", sheet=fields.sheet, sheets=fields.sheets))),
     ]
     return TitleBlock(140.0, 40.0, tuple(cells))
 
 
-def iso_block(fields: Fields, say: Translate) -> TitleBlock:
+def iso_block(fields: Fields, translate: Translate) -> TitleBlock:
     """180 × 40 mm with the fields of ISO 7200, and the scale."""
 
     top = (
-        (say(_("Responsible dept.")), _joined(fields.faculty, fields.class_name)),
-        (say(_("Technical reference")), fields.student_number),
-        (say(_("Created by")), fields.student),
-        (say(_("Approved by")), _joined(fields.adviser, fields.checker)),
+        (translate(_("Responsible dept.")), _joined(fields.faculty, fields.class_name)),
+        (translate(_("Technical reference")), fields.student_number),
+        (translate(_("Created by")), fields.student),
+        (translate(_("Approved by")), _joined(fields.adviser, fields.checker)),
     )
     cells = [Cell(45.0 * k, 0, 45, 10, text, 3.5, name) for k, (name, text) in enumerate(top)]
     cells += [
-        Cell(0, 10, 72, 20, fields.school, 5.0, say(_("Legal owner"))),
-        Cell(72, 10, 108, 20, f"{fields.title}\n{fields.drawing}", 5.0, say(_("Title, supplementary title"))),
+        Cell(0, 10, 72, 20, fields.school, 5.0, translate(_("Legal owner"))),
+        Cell(72, 10, 108, 20, f"{fields.title}\n{fields.drawing}", 5.0, translate(_("Title, supplementary title"))),
     ]
     bottom = (
-        (40.0, say(_("Document type")), say(pgettext("sheet", "Kinematic drawing"))),
-        (46.0, say(_("Identification number")), fields.number),
-        (28.0, say(_("Date of issue")), fields.date),
-        (24.0, say(_("Scale")), fields.scale),
-        (16.0, say(_("Lang.")), say(_("en"))),
-        (26.0, say(_("Sheet")), f"{fields.sheet}/{fields.sheets}"),
+        (40.0, translate(_("Document type")), translate(pgettext("sheet", "Kinematic drawing"))),
+        (46.0, translate(_("Identification number")), fields.number),
+        (28.0, translate(_("Date of issue")), fields.date),
+        (24.0, translate(_("Scale")), fields.scale),
+        (16.0, translate(_("Lang.")), translate(_("en"))),
+        (26.0, translate(_("Sheet")), f"{fields.sheet}/{fields.sheets}"),
     )
     x = 0.0
     for width, name, text in bottom:

@@ -34,7 +34,7 @@ class Subject:
     drawn: Mechanism | Problem
     settings: Settings
     language: str
-    say: Translate
+    translate: Translate
     of: str = ""
     notes: list[str] = field(default_factory=list)
 
@@ -44,7 +44,7 @@ class Subject:
 
     def words(self, message: Message) -> str:
         """A text on the sheet."""
-        return self.say(message)
+        return self.translate(message)
 
 
 @dataclass(frozen=True)

@@ -215,7 +215,7 @@ def _composed(subject: Subject, content: Content, kind: str, name: str) -> Sheet
         )
     places = {**fixed, **layout.places}
     picture = frame(paper, zones=wanted.zones, block=corner)
-    picture.add(control_bar(subject.say), (bar.left, bar.bottom))
+    picture.add(control_bar(subject.translate), (bar.left, bar.bottom))
     blocks = {**{key: draw(key, 1.0) for key in fixed}, **layout.blocks}
     for key, box in places.items():
         picture.add(blocks[key].picture, (box.left, box.bottom))
@@ -225,11 +225,11 @@ def _composed(subject: Subject, content: Content, kind: str, name: str) -> Sheet
 
 
 def _block(subject: Subject, kind: str, scale: str) -> TitleBlock:
-    entries, say = subject.settings.fields, subject.say
-    fields = replace(entries, drawing=entries.drawing or say(DRAWINGS[kind]), scale=scale)
+    entries, translate = subject.settings.fields, subject.translate
+    fields = replace(entries, drawing=entries.drawing or translate(DRAWINGS[kind]), scale=scale)
     if subject.settings.block == "short":
-        return school_block(fields, say)
-    return (gb_block if subject.settings.paper.standard == "gb" else iso_block)(fields, say)
+        return school_block(fields, translate)
+    return (gb_block if subject.settings.paper.standard == "gb" else iso_block)(fields, translate)
 
 
 def _bar_place(inner: Box, block: Box) -> Box:

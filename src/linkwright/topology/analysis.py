@@ -48,14 +48,14 @@ class Structure(Tabular):
 
     def tables(self, language: str = "en") -> tuple[Table, ...]:
         """The structure analysis as a student would write it: mobility, groups in solving order, class, trains."""
-        say = speaker(language)
-        groups = [_row(number, group, say) for number, group in enumerate(self.groups, 1)]
+        translate = speaker(language)
+        groups = [_row(number, group, translate) for number, group in enumerate(self.groups, 1)]
         title = _("Assur groups in solving order:")
         return (
-            Table(notes=_mobility(self, say)),
-            Table((), groups, "<<<<<", title, turned_against(self, say)),
-            Table(notes=_class(self, say)),
-            *(_train(train, say) for train in self.trains),
+            Table(notes=_mobility(self, translate)),
+            Table((), groups, "<<<<<", title, turned_against(self, translate)),
+            Table(notes=_class(self, translate)),
+            *(_train(train, translate) for train in self.trains),
         )
 
     def data(self) -> dict[str, object]:
@@ -96,15 +96,15 @@ class Structure(Tabular):
         return f"Structure(mobility {self.mobility}; {self.chain}; class {self.mechanism_class})"
 
 
-def _class(structure: Structure, say: Translate) -> Sequence[str]:
+def _class(structure: Structure, translate: Translate) -> Sequence[str]:
     """The groups in one line, the mechanism's class, and what else is to be known of it."""
-    level = numeral(structure.mechanism_class, say)
+    level = numeral(structure.mechanism_class, translate)
     lines = [
         _("Mechanism = frame + {chain}", chain=structure.chain),
         _("It is a class {level} mechanism.", level=level),
     ]
     if len(structure.parts) > 1:
-        parts = say(_(" and ")).join("{" + ", ".join(part) + "}" for part in structure.parts)
+        parts = translate(_(" and ")).join("{" + ", ".join(part) + "}" for part in structure.parts)
         lines.append(
             _(
                 "These are {count} mechanisms that share nothing but the frame: {parts}.",
@@ -117,7 +117,7 @@ def _class(structure: Structure, say: Translate) -> Sequence[str]:
     return lines
 
 
-def turned_against(structure: Structure, say: Translate) -> list[str]:
+def turned_against(structure: Structure, translate: Translate) -> list[str]:
     """The drivers that turn a link against another one than the frame, a sentence each."""
     return [
         _(
@@ -132,9 +132,9 @@ def turned_against(structure: Structure, say: Translate) -> list[str]:
     ]
 
 
-def numeral(number: int, say: Translate) -> str:
+def numeral(number: int, translate: Translate) -> str:
     """A class as it is written in the books."""
-    numerals = say(_("I II III IV V VI VII VIII IX X")).split()
+    numerals = translate(_("I II III IV V VI VII VIII IX X")).split()
     return numerals[number - 1] if number <= len(numerals) else str(number)
 
 
@@ -146,7 +146,7 @@ _MOBILITIES = {
 }
 
 
-def _mobility(structure: Structure, say: Translate) -> list[str]:
+def _mobility(structure: Structure, translate: Translate) -> list[str]:
     n, (r, p, w) = structure.counts["links"], lower_pair_counts(structure.counts)
     higher = {kind: count for kind, count in structure.counts.items() if kind in JOINTS and JOINTS[kind].higher}
     h = sum(higher.values())
@@ -161,12 +161,12 @@ def _mobility(structure: Structure, say: Translate) -> list[str]:
         if w
         else _("Moving links n = {links}; lower pairs p = {pairs}: {revolute} revolute, {prismatic} prismatic")
     ).format(links=n, pairs=r + p, revolute=r, prismatic=p)
-    first = say(counted)
+    first = translate(counted)
     if h:
-        kinds = ", ".join(f"{count} {_kind(kind, say)}" for kind, count in higher.items())
-        first += say(_("; higher pairs p_H = {higher}: {kinds}", higher=h, kinds=kinds))
+        kinds = ", ".join(f"{count} {_kind(kind, translate)}" for kind, count in higher.items())
+        first += translate(_("; higher pairs p_H = {higher}: {kinds}", higher=h, kinds=kinds))
     values = {"links": n, "pairs": r + p, "welds": w, "higher": h, "mobility": structure.grubler}
-    lines = [first, say(_MOBILITIES[bool(h), bool(w)].format(**values))]
+    lines = [first, translate(_MOBILITIES[bool(h), bool(w)].format(**values))]
     guides = ", ".join(name for name in structure.redundant if name not in structure.passive)
     if guides:
         lines.append(
@@ -195,23 +195,23 @@ def _mobility(structure: Structure, say: Translate) -> list[str]:
     return lines
 
 
-def _kind(kind: str, say: Translate) -> str:
+def _kind(kind: str, translate: Translate) -> str:
     """A kind of joint as it is read; a kind of another package by its own word."""
-    return say(PAIRS[kind]) if kind in PAIRS else kind
+    return translate(PAIRS[kind]) if kind in PAIRS else kind
 
 
-def _train(train: GearTrain, say: Translate) -> Table:
+def _train(train: GearTrain, translate: Translate) -> Table:
     """The ratios of a train by the method of the stopped carrier."""
     wheels = list(train.ratios)
-    carrier, frame = (link_label(name, language_of(say)) for name in (train.carrier, "frame"))
-    stopped = say(_("{carrier} stopped", carrier=carrier))
+    carrier, frame = (link_label(name, language_of(translate)) for name in (train.carrier, "frame"))
+    stopped = translate(_("{carrier} stopped", carrier=carrier))
     rows = [["", *wheels], [stopped, *map(written, train.ratios.values())]]
     if train.planetary:
         rows[0].append(train.carrier)
         rows[1].append("0")
-        rows.append([say(_("all as one")), *["1"] * (len(wheels) + 1)])
+        rows.append([translate(_("all as one")), *["1"] * (len(wheels) + 1)])
         if speeds := train.speeds:
-            rows.append([say(_("{carrier} stopped", carrier=frame)), *map(written, speeds.values())])
+            rows.append([translate(_("{carrier} stopped", carrier=frame)), *map(written, speeds.values())])
     title = _(
         "Ratios of the train {pairs} by the method of the stopped carrier ({carrier}):",
         pairs=", ".join(train.pairs),
@@ -231,24 +231,24 @@ def _train(train: GearTrain, say: Translate) -> Table:
     return Table((), rows, "<" * len(rows[0]), title, notes)
 
 
-def _row(number: int, group: Group, say: Translate) -> tuple[str, str, str, str, str]:
+def _row(number: int, group: Group, translate: Translate) -> tuple[str, str, str, str, str]:
     drivers = ", ".join(group.drivers)
     unnamed = group.drivers == ("driver",)
     if group.assur_class == 1 and group.drivers:
-        what = say(_("driven by driver") if unnamed else _("driven by {drivers}", drivers=drivers))
+        what = translate(_("driven by driver") if unnamed else _("driven by {drivers}", drivers=drivers))
     else:
-        level, form = numeral(group.assur_class, say), _("class {level}, order {order}")
+        level, form = numeral(group.assur_class, translate), _("class {level}, order {order}")
         if group.drivers:
             form = (
                 _("class {level}, order {order}, with the driver inside")
                 if unnamed
                 else _("class {level}, order {order}, with driver {drivers} inside")
             )
-        what = say(form.format(level=level, order=group.assur_order, drivers=drivers))
+        what = translate(form.format(level=level, order=group.assur_order, drivers=drivers))
     outer = ", ".join(dict.fromkeys(c.joint for c in group.outer_joints))
     inner = ", ".join(dict.fromkeys(c.joint for c in group.inner_joints))
     seats = _("outer joints {outer}; inner joints {inner}") if inner else _("outer joints {outer}")
-    joints = say(seats.format(outer=outer, inner=inner))
+    joints = translate(seats.format(outer=outer, inner=inner))
     return f"{number}.", group.signature, f"({', '.join(group.links)})", what, joints
 
 

@@ -125,27 +125,27 @@ def _printed(checks: Iterable[Checked]) -> int:
 
 def line(each: Checked, language: str) -> str:
     """One number in a sentence."""
-    say = speaker(language)
+    translate = speaker(language)
     number = each.reference.text
     words = {
         "case": f"{in_language(each.case.case, language)} {each.case.place}".rstrip(),
         "what": each.reference.what,
-        "inputs": say(
+        "inputs": translate(
             (_("printed {number}") if each.reference.printed else _("derived {number}")).format(number=number)
         ),
     }
     if each.trouble:
-        return say(
+        return translate(
             _("{case}: {what}: not found: {sentence}").format(sentence=in_language(each.trouble, language), **words)
         )
     ours = f"{each.value:.10g} {number.partition(' ')[2]}".strip()
     if each.erratum:
-        return say(
+        return translate(
             _("{case}: {what}: {inputs} is wrong, right is {right} (ours {ours}): {why}").format(
                 ours=ours, right=each.reference.right, why=in_language(each.reference.why, language), **words
             )
         )
-    return say(
+    return translate(
         (
             _("{case}: {what}: {inputs}, ours {ours} ({digits} last digits)")
             if each.ok

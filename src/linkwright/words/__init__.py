@@ -6,12 +6,22 @@ from collections.abc import Callable
 
 from linkwright.words.message import LANGUAGES, Message, _, in_language, ngettext, pgettext
 
-__all__ = ["LANGUAGES", "Message", "Translate", "_", "in_language", "language_of", "ngettext", "pgettext", "say"]
+__all__ = [
+    "LANGUAGES",
+    "Message",
+    "Translate",
+    "_",
+    "in_language",
+    "language_of",
+    "ngettext",
+    "pgettext",
+    "translate",
+]
 
 Translate = Callable[[Message], str]
 
 
-def say(message: Message, /, language: str = "en") -> str:
+def translate(message: Message, /, language: str = "en") -> str:
     """A message in a language; raises KeyError for one that does not exist."""
     return message.translate(language)
 

@@ -29,14 +29,14 @@ _FIELD = re.compile(r"(?<!\{)(?:\{\{)*\{\w")
 class Translatable(Protocol):
     """What has a text in every language."""
 
-    def say(self, language: str = "en") -> str:
+    def translate(self, language: str = "en") -> str:
         """The text in a language."""
 
 
 class Message(str):
     """The English text of a message with its values; ``translate("zh")`` is the same in Chinese.
 
-    Values may be messages themselves, anything else that has ``say(language)`` such as an error, or tuples of
+    Values may be messages themselves, anything else that has ``translate(language)`` such as an error, or tuples of
     these, which are joined by commas, or lists, by semicolons; or functions of the language. ``code`` is a stable
     word for programs and tests, ``context`` distinguishes equal English texts with different translations.
     """
@@ -71,7 +71,7 @@ class Message(str):
         (msgid, own), about = self.__getnewargs_ex__()
         return Message(msgid, {**own, **values}, **about)
 
-    def translate(self, language: str) -> str:  # type: ignore[override]
+    def translate(self, language: str = "en") -> str:  # type: ignore[override]
         """The text in a language; raises KeyError for one that does not exist."""
         if language == "en" or not self.msgid:
             return str.__str__(self)
@@ -83,10 +83,6 @@ class Message(str):
         else:
             text = known.gettext(self.msgid)
         return _filled(text, self.values, language)
-
-    def say(self, language: str = "en") -> str:
-        """The text in a language."""
-        return self.translate(language)
 
 
 def _(msgid: str, /, *, code: str = "", **values: object) -> Message:
@@ -115,14 +111,16 @@ def translations(language: str) -> NullTranslations:
 
 
 def translated(value: object, language: str) -> object:
-    """A value of a message in a language; numbers as they are."""
+    """A value of a message in a language; numbers and plain texts as they are."""
+    if type(value) is str:
+        return value
     if isinstance(value, tuple | list):
         between = _(", ") if isinstance(value, tuple) else _("; ")
         return between.translate(language).join(str(translated(each, language)) for each in value)
     if callable(value):
         return value(language)
     if isinstance(value, Translatable):
-        return value.say(language)
+        return value.translate(language)
     return value
 
 
@@ -144,7 +142,7 @@ _OWN_NAMES = re.compile(
 class LocalizedText(str):
     """A text that a file gives in several languages: ``texts``, by language.
 
-    It reads as the text of one language, English unless ``say("zh")`` gave it, or as the first one that there is.
+    It reads as the text of one language, English unless ``translate("zh")`` gave it, or as the first one there is.
     """
 
     texts: Mapping[str, str]
@@ -157,7 +155,7 @@ class LocalizedText(str):
     def __getnewargs__(self) -> tuple[Mapping[str, str]]:  # type: ignore[override]
         return (self.texts,)
 
-    def say(self, language: str = LANGUAGES[0]) -> LocalizedText:
+    def translate(self, language: str = LANGUAGES[0]) -> LocalizedText:  # type: ignore[override]
         """The text in a language."""
         return LocalizedText(self.texts, language)
 
@@ -168,7 +166,7 @@ class LocalizedText(str):
 
 def in_language(text: str, language: str) -> str:
     """A message or localized text in a language; plain texts as they are."""
-    return text.say(language) if isinstance(text, Message | LocalizedText) else text
+    return text.translate(language) if isinstance(text, Message | LocalizedText) else text
 
 
 NAMES = {"frame": _("frame"), "driver": _("driver"), "max": _("max"), "min": _("min")}

@@ -51,10 +51,10 @@ class KnownForces:
 
     def steps(self, number: int) -> list[Step]:
         """The steps that find them."""
-        say = self.book.say
-        head = Step(str(number), say(_("Forces")))
-        head.say(
-            say(
+        translate = self.book.translate
+        head = Step(str(number), translate(_("Forces")))
+        head.note(
+            translate(
                 _(
                     "F_A,2: force that joint A exerts on link 2 (F_A,1→2: that link 1 exerts on link 2 "
                     "at A); K, M_J: weight and inertia force at the mass centre, inertia couple. The "
@@ -64,11 +64,11 @@ class KnownForces:
         )
         inertia = Step(
             f"{number}.1",
-            say(_("Weights") if self.forces.static else _("Weight and inertia: K = m (g - a_G), M_J = -J α")),
+            translate(_("Weights") if self.forces.static else _("Weight and inertia: K = m (g - a_G), M_J = -J α")),
         )
         for link in self.book.mechanism.links:
             self._own(inertia, link)
-        loads = Step(f"{number}.2", say(_("Loads")))
+        loads = Step(f"{number}.2", translate(_("Loads")))
         self._loads(loads)
         return [head, inertia, loads]
 
@@ -123,7 +123,7 @@ class KnownForces:
     def _announce(self, step: Step, name: str, link: str, *, idle: bool = False) -> None:
         joint = self._rubbing(name)
         if joint:
-            text = self.book.say(
+            text = self.book.translate(
                 _(
                     "friction in {joint}, on link {link} (coefficient times the joint's force, found by iteration):",
                     joint=joint,
@@ -131,13 +131,13 @@ class KnownForces:
                 )
             )
         else:
-            text = self.book.say(
+            text = self.book.translate(
                 (_("{name}: does not act in this position.") if idle else _("{name}, on link {link}:")).format(
                     name=name, link=link
                 )
             )
         if not (idle and joint):
-            step.say(text)
+            step.note(text)
 
     def _couple(self, step: Step, name: str, label: str, link: str, torque: float) -> Term:
         couple = symbol(f"M_{label}", torque)

@@ -88,8 +88,8 @@ class CamPair(ABC):
 
     def rate(self, step: Step, *, second: bool) -> None:
         if not self._lifted(second=second).is_zero:
-            step.say(
-                self.book.say(
+            step.note(
+                self.book.translate(
                     _(
                         "The lift of {joint} differentiated, with the angular velocity and acceleration of "
                         "the cam against its carrier:",
@@ -123,23 +123,23 @@ class CamPair(ABC):
 
     @property
     def title(self) -> str:
-        return self.book.say(_("Cam {joint}: pressure angle and profile", joint=self.joint.name))
+        return self.book.translate(_("Cam {joint}: pressure angle and profile", joint=self.joint.name))
 
     def _profile(self, step: Step, place: Pair, normal: Pair) -> None:
         """Pitch curve and profile in the cam's axes, from the point and the normal that leads away from the cam."""
         if self.roller.is_zero:
             point = place
         else:
-            step.say(self.book.say(_("Pitch curve in the cam's axes:")))
+            step.note(self.book.translate(_("Pitch curve in the cam's axes:")))
             point = Pair(self._found(step, "x_p", place.x, "m"), self._found(step, "y_p", place.y, "m"))
-        step.say(self.book.say(_("Profile in the cam's axes:")))
+        step.note(self.book.translate(_("Profile in the cam's axes:")))
         point = point - normal.times(self.roller)
         self._found(step, "x_n", point.x, "m")
         self._found(step, "y_n", point.y, "m")
 
     def _radius(self, step: Step, square: Term, turn: Term) -> None:
         """Radius of curvature of pitch curve and profile, from |p'|² and p' × p''."""
-        step.say(self.book.say(_("Radius of curvature (positive: convex):")))
+        step.note(self.book.translate(_("Radius of curvature (positive: convex):")))
         q = self._found(step, "q", square, "m²")
         k = self._found(step, "k", turn, "m²")
         if not k.value:
@@ -180,8 +180,8 @@ class Guided(CamPair):
     def place(self, step: Step, places: Places) -> None:
         book, name = self.book, self.joint.holder
         self.lifts.write(step)
-        step.say(
-            book.say(
+        step.note(
+            book.translate(
                 _(
                     "Height of {point} above the cam's centre, along {guide}: d + S. b: where {point} is "
                     "along it when the displacement is 0.",
@@ -208,8 +208,8 @@ class Guided(CamPair):
 
     def effort(self, step: Step, right: Term) -> Term:
         """V, the force along the follower's way."""
-        step.say(
-            self.book.say(
+        step.note(
+            self.book.translate(
                 _(
                     "V: what {joint} exerts along the follower's way; across it V tan α, by the "
                     "direction of the normal.",
@@ -222,17 +222,17 @@ class Guided(CamPair):
 
     def shape(self, step: Step) -> None:
         book, lift, flat = self.book, self.lift, self.joint.touch == "flat"
-        step.say(book.say(_("Direction of the follower's way in the cam's axes:")))
+        step.note(book.translate(_("Direction of the follower's way in the cam's axes:")))
         along = book.turn(self.joint.carrier) + book.degrees(self._geometry[0]) - book.turn(self.joint.cam)
         heading = self._found(step, "ν", along, "°", degrees=True)
         c, s, first = cosine(heading), sine(heading), self.signed(lift.first)
         n, aside = Pair(c, s), Pair(-s, c)
         if flat:
             self._profile(step, n.times(self.height) - aside.times(first), NOWHERE)
-            step.say(book.say(_("Radius of curvature (positive: convex):")))
+            step.note(book.translate(_("Radius of curvature (positive: convex):")))
             self._found(step, "ρ", self.height + lift.second, "m")
             return
-        step.say(book.say(_("Pressure angle, between the normal and the velocity of the follower:")))
+        step.note(book.translate(_("Pressure angle, between the normal and the velocity of the follower:")))
         alpha = self._found(step, "α", direction(first - self.offset, self.height), "°", degrees=True)
         place = n.times(self.height) - aside.times(self.offset)
         self._profile(step, place, Pair(cosine(heading + alpha), sine(heading + alpha)))
@@ -290,8 +290,8 @@ class Swinging(CamPair):
     def place(self, step: Step, places: Places) -> None:
         book = self.book
         self.lifts.write(step)
-        step.say(
-            book.say(
+        step.note(
+            book.translate(
                 _("Angle of the arm to the line from {pivot} to the cam's centre: ψ0 + S.", pivot=self.joint.holder)
             )
         )
@@ -320,8 +320,8 @@ class Swinging(CamPair):
 
     def effort(self, step: Step, right: Term) -> Term:
         """M, the moment about the pivot, positive where it lifts."""
-        step.say(
-            self.book.say(
+        step.note(
+            self.book.translate(
                 _(
                     "M: moment of {joint} about the follower's pivot; the contact force follows from the "
                     "direction of the normal.",
@@ -334,8 +334,8 @@ class Swinging(CamPair):
 
     def shape(self, step: Step) -> None:
         book, joint = self.book, self.joint
-        step.say(
-            book.say(
+        step.note(
+            book.translate(
                 _("Directions of the arm and of the line of axes in the cam's axes, and the angle between them:")
             )
         )
@@ -354,10 +354,10 @@ class Swinging(CamPair):
         lift, first = self.lift, self.sided(self.signed(self.lift.first))
         one = length * (ONE - first) - c * cosine(psi)
         two = c * sine(psi)
-        step.say(self.book.say(_("Normal of the pitch curve along the arm and across it:")))
+        step.note(self.book.translate(_("Normal of the pitch curve along the arm and across it:")))
         one = self._found(step, "m_1", one, "m")
         two = self._found(step, "m_2", two, "m")
-        step.say(self.book.say(_("Pressure angle, between the normal and the velocity of the follower:")))
+        step.note(self.book.translate(_("Pressure angle, between the normal and the velocity of the follower:")))
         alpha = self._found(step, "α", direction(one, two), "°", degrees=True)
         normal = arm.times(sine(alpha)) + arm.perp.times(self.sided(cosine(alpha)))
         self._profile(step, arm.times(length) - axes.times(c), normal)
@@ -370,7 +370,7 @@ class Swinging(CamPair):
         w = self._found(step, "w", ONE - self.sided(self.signed(lift.first)), "")
         reach = self._found(step, "t_f", c * cosine(psi) / w, "m")
         self._profile(step, arm.times(reach) - axes.times(c), NOWHERE)
-        step.say(self.book.say(_("Radius of curvature (positive: convex):")))
+        step.note(self.book.translate(_("Radius of curvature (positive: convex):")))
         bent = c * cosine(psi) * lift.second - c * sine(psi) * lift.first.squared * w
         self._found(step, "ρ", c * sine(psi) + bent / (w * w.squared), "m")
 

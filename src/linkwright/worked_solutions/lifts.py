@@ -84,8 +84,8 @@ class LiftWriter:
     def write(self, step: Step) -> None:
         """θ, then S, S' and S''."""
         book, joint, theta = self.book, self.joint, self.now.angle
-        step.say(
-            book.say(
+        step.note(
+            book.translate(
                 _("Angle of {cam} in the program of {joint}, and the lift there:", cam=joint.cam, joint=joint.name)
             )
         )
@@ -103,17 +103,19 @@ class LiftWriter:
             self._of_table(step)
 
     def _of_law(self, step: Step, program: MotionProgram) -> None:
-        say, swings = self.book.say, bool(self.joint.side)
+        translate, swings = self.book.translate, bool(self.joint.side)
         k, law = self._law_at
         start = self.factor * float(program.lift_at_edges[k])
         if law is None:
-            step.say(say(_("Segment {number}: dwell, the lift does not change.", number=k + 1)))
+            step.note(translate(_("Segment {number}: dwell, the lift does not change.", number=k + 1)))
             step.give(self.now.value, self.unit)
             return
         law, scale = program.moved_by[k]
         assert law is not None
-        step.say(
-            say(_("Segment {number}: {law}; u runs from 0 to 1.", number=k + 1, law=LABELS.get(law.key, law.key)))
+        step.note(
+            translate(
+                _("Segment {number}: {law}; u runs from 0 to 1.", number=k + 1, law=LABELS.get(law.key, law.key))
+            )
         )
         low, width = float(program.edges[k]), float(program.edges[k + 1] - program.edges[k])
         begin = step.give(self.named("θ_a", math.degrees(low), degrees=True), "°")
@@ -137,16 +139,18 @@ class LiftWriter:
         step.find(self.now.second, lift * shape[2] / arc.squared, "1/rad" if swings else "m/rad²")
 
     def _of_table(self, step: Step) -> None:
-        say, lift = self.book.say, self.joint.lift
+        translate, lift = self.book.translate, self.joint.lift
         low, high = (float(lift.edges[self._piece + k]) for k in (0, 1))
         row = [float(each) for each in self._row]
         ends = {key: f"{math.degrees(value):.9g}" for key, value in (("low", low), ("high", high))}
         if not any(row[1:]):
-            step.say(say(_("From {low}° to {high}° the table rests: the lift does not change.").format(**ends)))
+            step.note(
+                translate(_("From {low}° to {high}° the table rests: the lift does not change.").format(**ends))
+            )
             step.give(self.now.value, "m")
             return
-        step.say(
-            say(
+        step.note(
+            translate(
                 _(
                     "Between the points of the table at {low}° and {high}° the lift is a polynomial of t "
                     "from -1 to 1:"

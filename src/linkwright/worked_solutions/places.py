@@ -162,8 +162,8 @@ class Places(Placing):
         rows = pair_closures(book, group, chains)
         known = self._held(group)
         if rows:
-            step.say(
-                book.say(
+            step.note(
+                book.translate(
                     _(
                         "The pairs {joints} tie rotations, counted with their turns, and displacements to "
                         "each other, as the closure equations have them (i: ratio to each link, r: lever "
@@ -176,14 +176,16 @@ class Places(Placing):
             known |= self._tied(step, row, known)
         if chains:
             joints = ", ".join(dict.fromkeys(closure.cut.joint for closure in chains))
-            step.say(book.say(_("Closure equations of the chains, cut at {joints}:", joints=joints)))
+            step.note(book.translate(_("Closure equations of the chains, cut at {joints}:", joints=joints)))
         for closure in chains:
             self._closure(step, group, closure, known)
         form = complete_form(group)
-        step.say(
-            book.say(_("They have no closed form; Newton's method gives"))
+        step.note(
+            book.translate(_("They have no closed form; Newton's method gives"))
             if form is None
-            else book.say(_("The closed form {form} of a package gives", form=form.signature or type(form).__name__))
+            else book.translate(
+                _("The closed form {form} of a package gives", form=form.signature or type(form).__name__)
+            )
         )
         self.give(step, group)
 
@@ -350,7 +352,7 @@ class DyadWriter:
     def note_mode(self, modes: tuple[Message, Message], *spots: PointState) -> None:
         p, q, b = (spot.label for spot in spots)
         message = modes[0] if self.mode > 0 else modes[1]
-        self.step.say(self.book.say(message.format(p=p, q=q, b=b)))
+        self.step.note(self.book.translate(message.format(p=p, q=q, b=b)))
 
     def frame_chain(self, end: str, name: str) -> tuple[Pair, Trail]:
         """Where the cut would be with the slides at zero, for a chain of guides."""
@@ -366,8 +368,8 @@ class DyadWriter:
         way = trail(self.book, steps, steps[0].parent, start, self.tip.key, local=False)
         if way.reach == NOWHERE:
             return base.place, way
-        self.step.say(
-            self.book.say(_("{name}: where {b} would be with the displacement 0.", name=name, b=self.tip.label))
+        self.step.note(
+            self.book.translate(_("{name}: where {b} would be with the displacement 0.", name=name, b=self.tip.label))
         )
         zero = base.place + way.reach
         return Pair(self.step.define(f"x_{name}", zero.x, "m"), self.step.define(f"y_{name}", zero.y, "m")), way

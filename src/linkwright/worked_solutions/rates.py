@@ -91,10 +91,10 @@ def solve(
         for term, above, output in zip(unknowns, found, outputs, strict=True):
             step.find(term, above / system.determinant, output)
         return
-    step.say(book.say(_("Solution of the {count} linear equations (by elimination):", count=len(rows))))
+    step.note(book.translate(_("Solution of the {count} linear equations (by elimination):", count=len(rows))))
     for term, output in zip(unknowns, outputs, strict=True):
         step.give(term, output)
-    step.say(book.say(_("Put into the left sides, row by row:")))
+    step.note(book.translate(_("Put into the left sides, row by row:")))
     for row, goal in zip(rows, right, strict=True):
         left = total([entry * term for entry, term in zip(row, unknowns, strict=True)])
         if goal.is_zero:
@@ -150,10 +150,10 @@ class RateWriter:
         pairs = ", ".join(c.cut.joint for c in cuts if c.cut.higher)
         across = any(closure.cut.slides for closure in cuts)
         if joints:
-            step.say(self.book.say(CLOSURES[second, across].format(joints=joints)))
+            step.note(self.book.translate(CLOSURES[second, across].format(joints=joints)))
         if pairs:
-            step.say(
-                self.book.say(
+            step.note(
+                self.book.translate(
                     _("The rows of {joints}, differentiated (r: lever arms of the rotations):", joints=pairs)
                 )
             )
@@ -168,7 +168,7 @@ class RateWriter:
 
     def _right(self, step: Step, gaps: list[Term], letter: str, unit: str) -> list[Term]:
         found = []
-        step.say(self.book.say(_("Right sides:")))
+        step.note(self.book.translate(_("Right sides:")))
         for i, gap in enumerate(gaps, 1):
             term = step.define(f"{letter}{i}", gap, unit)
             found.append(ZERO if gap.is_zero else term)
@@ -195,7 +195,7 @@ class RateWriter:
             term = ZERO if formula.is_zero else symbol(plain, formula.value, look=look)
             if not term.is_zero and plain not in noted:
                 if not begun:
-                    step.say(self.book.say(PARTS[part.kind].format(label=part.label)))
+                    step.note(self.book.translate(PARTS[part.kind].format(label=part.label)))
                 begun = True
                 step.find(term, formula, "m/s²")
             found.append(term)
@@ -290,7 +290,7 @@ def _guide_ends(book: SymbolTable, joint: str) -> tuple[PointState, PointState]:
 
 def check_closure(book: SymbolTable, places: Places, step: Step, group: Group) -> None:
     """What is left of the closure equations with the numbers put in: zero but for rounding."""
-    step.say(book.say(_("The closure put in: what is left is zero to the digits shown.")))
+    step.note(book.translate(_("The closure put in: what is left is zero to the digits shown.")))
     for cut in group.cuts:
         if cut.higher:
             continue

@@ -64,7 +64,7 @@ class Reactions:
         links = ", ".join(f"{book.numbers[link]} {link}" for link in group.links)
         driven = group.assur_class == 1 and group.drivers
         message = _("Forces of the driven link: {links}") if driven else _("Forces of group {signature}: {links}")
-        title = book.say(message.format(signature=group.signature, links=links))
+        title = book.translate(message.format(signature=group.signature, links=links))
         head = Step(f"{number}", title, group.name)
         if in_one_step(group):
             self._wheels(head, group)
@@ -79,8 +79,8 @@ class Reactions:
         """Forces at the cuts, from one equation for every unknown coordinate."""
         book = self.book
         cuts = closures(book, group)
-        step.say(
-            book.say(
+        step.note(
+            book.translate(
                 _(
                     "The force at {joints} first; the equations are such that no other joint force enters.",
                     joints=", ".join(dict.fromkeys(c.joint for c in group.cuts)),
@@ -88,8 +88,8 @@ class Reactions:
             )
         )
         if any(cut.higher for cut in group.cuts):
-            step.say(
-                book.say(
+            step.note(
+                book.translate(
                     _(
                         "T: tangential force of a pair. S acts along the line of centres (its direction: γ), "
                         "does no work and follows from T: it separates the teeth, |T| tan α with the "
@@ -99,12 +99,14 @@ class Reactions:
                 )
             )
         right = self._demands(step, group)
-        step.say(book.say(_("The arms of the unknown forces form the matrix J of the velocities, read by columns:")))
+        step.note(
+            book.translate(_("The arms of the unknown forces form the matrix J of the velocities, read by columns:"))
+        )
         system = name_matrix(step, group, cuts)
         values = _transposed(system, right)
         if self._pressed(group, system, values):
-            step.say(
-                book.say(
+            step.note(
+                book.translate(
                     _(
                         "The rows of the pairs hold for closed joints. So the pairs' forces T follow from "
                         "these equations, but the multipliers λ of the cut joints lack what the pairs do to "
@@ -114,8 +116,8 @@ class Reactions:
             )
             self._solved(step, system, self._by_rows(group, values), right)
             self._press_all(step, group, values)
-            step.say(
-                book.say(
+            step.note(
+                book.translate(
                     _(
                         "With the forces of the pairs among the known ones, the same equations give the "
                         "forces at the cut joints, and nothing more for the pairs (ΔT = 0):"
@@ -183,8 +185,8 @@ class Reactions:
         """Tooth forces, pulls of belts and forces of cams, from what acts on wheels and followers."""
         book, wheels = self.book, Wheels(self.book)
         if wheels.alone(group) is None:
-            step.say(
-                book.say(
+            step.note(
+                book.translate(
                     _(
                         "Moments about the wheels' centres give T, the tangential force of each of {joints}. "
                         "S acts along the line of centres (direction: γ): it separates the teeth, |T| tan α "
@@ -211,9 +213,9 @@ class Reactions:
 
     def passive(self, names: tuple[str, ...], number: int) -> Step:
         """Pairs that others make superfluous: how they share the load is not determined; they count as unloaded."""
-        step = Step(str(number), self.book.say(_("Passive pairs {joints}", joints=", ".join(names))))
-        step.say(
-            self.book.say(
+        step = Step(str(number), self.book.translate(_("Passive pairs {joints}", joints=", ".join(names))))
+        step.note(
+            self.book.translate(
                 _("How they share the load with others is not determined by rigid links; they count as unloaded.")
             )
         )
@@ -267,8 +269,8 @@ class Reactions:
         if joint.slides:
             slide = book.slide(joint.joint)
             moved = list(subtree(group, joint))
-            step.say(
-                book.say(
+            step.note(
+                book.translate(
                     _(
                         "Known forces on {links} along {joint}, reversed:",
                         links=self._names_of(moved),
@@ -283,8 +285,8 @@ class Reactions:
         else:
             pivot = book.spot(joint.parent, joint.joint)
             own = list(segment(group, joint))
-            step.say(
-                book.say(
+            step.note(
+                book.translate(
                     _(
                         "Moments of the known forces on {links} about {point}, reversed:",
                         links=self._names_of(own),
@@ -316,8 +318,8 @@ class Reactions:
         """Balance of a link: the force of the joint that it hangs on, and the couple or the driver's effort."""
         book, link = self.book, joint.child
         acting = self.acting(link)
-        step.say(
-            book.say(
+        step.note(
+            book.translate(
                 _(
                     "Balance of link {link}, force of {joint} on it:",
                     link=f"{book.numbers[link]} {link}",
@@ -364,7 +366,7 @@ class Reactions:
             own = joint.child == book.mechanism.drivers[joint.driver].link
             found = total([each.moment(place) for each in acting])
             term = symbol(f"M_{joint.driver}", self._effort(joint.driver))
-            step.say(book.say(_("Moments about {point}: torque of the driver.", point=joint.joint)))
+            step.note(book.translate(_("Moments about {point}: torque of the driver.", point=joint.joint)))
             step.find(term, -found if own else found, Output("effort", joint.driver))
             return place, term if own else -term
         place = self._block_point(joint)
@@ -419,7 +421,7 @@ class Reactions:
     def shares(self, number: int) -> Step | None:
         """What every link carries on pins of several links."""
         book = self.book
-        step = Step(str(number), book.say(_("Pins of several links: share of each link")))
+        step = Step(str(number), book.translate(_("Pins of several links: share of each link")))
         for name, joint in book.mechanism.joints.items():
             if len(joint.joined) < 3:
                 continue

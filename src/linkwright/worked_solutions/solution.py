@@ -59,7 +59,7 @@ def force_steps(forces: Forces, book: SymbolTable, before: int) -> list[Step]:
 
 def named_step(book: SymbolTable, number: int) -> Step:
     """Outputs that the model names: the formula of each, its value and its rates, where it has some."""
-    step = Step(str(number), book.say(_("Outputs that the model names")))
+    step = Step(str(number), book.translate(_("Outputs that the model names")))
     for name, named in book.mechanism.outputs.items():
         text = of_file(named.expression.text)
         step.items.append(Written(f"{name} = {text}", (read_name(name), read_name(text))))
@@ -72,8 +72,8 @@ def named_step(book: SymbolTable, number: int) -> Step:
 
 def power_step(forces: Forces, book: SymbolTable, known: KnownForces, number: int) -> Step:
     """Powers of all known forces, of the drivers, and the effort that follows from them."""
-    step = Step(str(number), book.say(_("Check by virtual power")))
-    step.say(book.say(_("Power of weight, inertia and loads of every link:")))
+    step = Step(str(number), book.translate(_("Check by virtual power")))
+    step.note(book.translate(_("Power of weight, inertia and loads of every link:")))
     powers = []
     for link, acting in known.on.items():
         n = book.numbers[link]
@@ -97,11 +97,11 @@ def _drivers(step: Step, forces: Forces, book: SymbolTable, sum_of: Term) -> Non
         terms.append((symbol(f"{letter}_{name}", value), rate))
     if len(terms) == 1 and abs(terms[0][1].amount) > ZERO_TOLERANCE and not sum_of.is_zero:
         effort, rate = terms[0]
-        step.say(book.say(_("The driver's power takes the sum to zero, so its effort once more:")))
+        step.note(book.translate(_("The driver's power takes the sum to zero, so its effort once more:")))
         unit = "N" if effort.plain.startswith("F") else "N·m"
         step.find(effort, -(sum_of / rate), unit)
         return
-    step.say(book.say(_("With the powers of the drivers the sum is zero:")))
+    step.note(book.translate(_("With the powers of the drivers the sum is zero:")))
     gap = symbol("ΔP", 0.0)
     step.find(gap, sum_of + total([effort * rate for effort, rate in terms]), "W")
 
@@ -150,14 +150,14 @@ def worked(source: Forces | Motion, position: int = 0, *, at: float | None = Non
     position = integer("position", position)
     _refuse_missing(motion, position)
     index = position % motion.steps
-    say = speaker(language)
-    book = SymbolTable(motion, index, say)
+    translate = speaker(language)
+    book = SymbolTable(motion, index, translate)
     steps = _Kinematics(book).steps()
     if isinstance(source, Forces):
         from linkwright.worked_solutions.solution import force_steps
 
         steps += force_steps(source, book, len(steps) and int(steps[-1].number.split(".")[0]))
-    title = say(_("{name}: worked solution of one position", name=motion.mechanism.name))
+    title = translate(_("{name}: worked solution of one position", name=motion.mechanism.name))
     return Worked(title, tuple(step for step in steps if step.items), tuple(_legend(book)), index)
 
 
@@ -198,11 +198,11 @@ def _refuse_missing(motion: Motion, position: int) -> None:
 
 
 def _legend(book: SymbolTable) -> list[str]:
-    say = book.say
-    links = ", ".join(numbered_links(book.numbers, language_of(say)))
+    translate = book.translate
+    links = ", ".join(numbered_links(book.numbers, language_of(translate)))
     return [
-        say(_("Links: {links}.", links=links)),
-        say(
+        translate(_("Links: {links}.", links=links)),
+        translate(
             _(
                 "x to the right, y up, angles and moments counter-clockwise positive; SI units. x_A, "
                 "v_Ax, a_Ax: place, velocity, acceleration of point A; φ, ω, α: angle of a link's x "
@@ -212,7 +212,7 @@ def _legend(book: SymbolTable) -> list[str]:
                 "quadrant."
             )
         ),
-        say(
+        translate(
             _(
                 "Every line: symbol = formula = numbers put in = result. Numbers put in have as many "
                 "digits as the result needs."
@@ -241,8 +241,8 @@ class _Kinematics:
         return found
 
     def _input(self) -> Step:
-        book, say = self.book, self.book.say
-        step = Step("1", say(_("Input")))
+        book, translate = self.book, self.book.translate
+        step = Step("1", translate(_("Input")))
         for name, driver in book.mechanism.drivers.items():
             turning = book.mechanism.joints[driver.joint].coordinate == "turn"
             message = (
@@ -251,8 +251,8 @@ class _Kinematics:
                 else _("{head}{link} slides on {relative} in {joint}.")
             )
             head = f"{name}: " if len(book.mechanism.drivers) > 1 else ""
-            relative = link_label(driver.relative_to, language_of(say))
-            step.say(say(message.format(head=head, link=driver.link, relative=relative, joint=driver.joint)))
+            relative = link_label(driver.relative_to, language_of(translate))
+            step.note(translate(message.format(head=head, link=driver.link, relative=relative, joint=driver.joint)))
             unit = "rad" if turning else "m"
             measures: tuple[str | Output, ...] = (
                 Output("input", name, slides=not turning),
@@ -261,18 +261,18 @@ class _Kinematics:
             )
             for term, what in zip(book.drive(name), measures, strict=True):
                 if term.is_zero:
-                    step.say(say(_("Constant speed: no acceleration of the input.")))
+                    step.note(translate(_("Constant speed: no acceleration of the input.")))
                 else:
                     step.give(term, what)
         return step
 
     def _group(self, group: Group, number: int) -> list[Step]:
-        say, name = self.book.say, group.name
+        translate, name = self.book.translate, group.name
         links = ", ".join(f"{self.book.numbers[link]} {link}" for link in group.links)
         moving = bool(self.book.mechanism.drivers)
         head = Step(str(number), self._title(group, links), name)
-        head.say(self._joints(group))
-        places = Step(f"{number}.1", say(_("Positions")), name)
+        head.note(self._joints(group))
+        places = Step(f"{number}.1", translate(_("Positions")), name)
         wheels = in_one_step(group)
         if wheels:
             self.wheels.positions(places, self.places, group)
@@ -286,11 +286,11 @@ class _Kinematics:
         if wheels:
             return [head, places, *self._wheel_rates(group, number), *self.wheels.shapes(group, number)]
         cuts = closures(self.book, group)
-        first = Step(f"{number}.2", say(_("Velocities")), name)
+        first = Step(f"{number}.2", translate(_("Velocities")), name)
         self.movers.driven_guides(first, group, second=False)
         system: System | None = self.rates.velocities(first, group, cuts)
         self.movers.move(first, group, second=False)
-        second = Step(f"{number}.3", say(_("Accelerations")), name)
+        second = Step(f"{number}.3", translate(_("Accelerations")), name)
         self.movers.driven_guides(second, group, second=True)
         self.rates.accelerations(second, group, cuts, system)
         self.movers.move(second, group, second=True)
@@ -299,7 +299,7 @@ class _Kinematics:
     def _wheel_rates(self, group: Group, number: int) -> list[Step]:
         found = []
         for second, title in ((False, _("Velocities")), (True, _("Accelerations"))):
-            step = Step(f"{number}.{3 if second else 2}", self.book.say(title), group.name)
+            step = Step(f"{number}.{3 if second else 2}", self.book.translate(title), group.name)
             self.movers.driven_guides(step, group, second=second)
             self.rates.links(step, group, second=second, before=True)
             self.wheels.rates(step, group, second=second)
@@ -311,10 +311,10 @@ class _Kinematics:
     def _title(self, group: Group, links: str) -> str:
         driven = group.assur_class == 1 and group.drivers
         message = _("Driven link: {links}") if driven else _("Group {signature}: {links}")
-        return self.book.say(message.format(signature=group.signature, links=links, order=group.assur_order))
+        return self.book.translate(message.format(signature=group.signature, links=links, order=group.assur_order))
 
     def _joints(self, group: Group) -> str:
         outer = ", ".join(dict.fromkeys(c.joint for c in group.outer_joints))
         inner = ", ".join(dict.fromkeys(c.joint for c in group.inner_joints))
         message = _("Outer joints {outer}; inner joints {inner}.") if inner else _("Joints {outer}.")
-        return self.book.say(message.format(outer=outer, inner=inner))
+        return self.book.translate(message.format(outer=outer, inner=inner))

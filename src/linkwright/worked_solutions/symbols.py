@@ -43,11 +43,11 @@ class Slide:
 class SymbolTable:
     """Symbols of one position of a motion; links are numbered in the order of the file, the frame is 0."""
 
-    def __init__(self, motion: Motion, index: int, say: Translate) -> None:
+    def __init__(self, motion: Motion, index: int, translate: Translate) -> None:
         self.motion = motion
         self.mechanism = motion.mechanism
         self.index = index
-        self.say = say
+        self.translate = translate
         self.numbers = {"frame": 0} | {name: i for i, name in enumerate(self.mechanism.links, 1)}
         self.given: set[str] = set()
         self._spots: dict[str, PointState] = {}

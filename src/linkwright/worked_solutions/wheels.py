@@ -98,8 +98,8 @@ class Wheels:
         if (own := self.alone(group)) is not None:
             own.place(step, places)
             return
-        step.say(
-            book.say(
+        step.note(
+            book.translate(
                 _(
                     "The pairs {joints} add the rotations up, counted with their turns (i: ratio to each "
                     "link, r: lever arm; β, c: from the drawing or the file):",
@@ -135,13 +135,13 @@ class Wheels:
         solved = [(row, target, row.rate_of(target, rate, speed)) for row, target in one_by_one(group, rows)]
         if solved:
             if any(not formula.is_zero for *_unused, formula in solved):
-                step.say(book.say(_("The rows of {joints}, differentiated:", joints=_names(group))))
+                step.note(book.translate(_("The rows of {joints}, differentiated:", joints=_names(group))))
             for _unused, target, formula in solved:
                 name, output = self._rate(target, second)
                 if not name.is_zero:
                     step.find(name, formula, output)
             return
-        step.say(book.say(_("The rows of {joints}, differentiated:", joints=_names(group))))
+        step.note(book.translate(_("The rows of {joints}, differentiated:", joints=_names(group))))
         self._together(step, group, rows, second=second)
 
     def _together(self, step: Step, group: Group, rows: Sequence[PairClosure], *, second: bool) -> None:

@@ -10,7 +10,7 @@ from linkwright import words
 from linkwright.cli import main
 from linkwright.words import _
 
-INTERRUPTED = words.say(_("interrupted")) + "\n"
+INTERRUPTED = words.translate(_("interrupted")) + "\n"
 SEARCH = [
     "optimize",
     "gallery:jaw_crusher_sixbar",
@@ -118,7 +118,9 @@ def test_an_interruption_before_the_first_population_leaves_a_file_to_go_on_from
         patched.setattr("linkwright.designs.optimise.optimize.Task", interrupt)  # before anything has been measured
         assert main(asked) == 130
         (left,) = tmp_path.iterdir()
-        going_on = words.say(_("Interrupted; run the same command with --state {path} to go on.", path=left.name))
+        going_on = words.translate(
+            _("Interrupted; run the same command with --state {path} to go on.", path=left.name)
+        )
         assert capsys.readouterr().err == f"{going_on}\n{INTERRUPTED}"
         kept = left.read_bytes()
         assert main([*asked, "--state", left.name, "--lang", "zh"]) == 130
@@ -128,7 +130,7 @@ def test_an_interruption_before_the_first_population_leaves_a_file_to_go_on_from
         assert main(asked) == 130
         assert (
             capsys.readouterr().err
-            == words.say(_("Nothing new had been computed; run the same command again.")) + f"\n{INTERRUPTED}"
+            == words.translate(_("Nothing new had been computed; run the same command again.")) + f"\n{INTERRUPTED}"
         )
     assert main([*asked, "--json"]) == 0
     whole = capsys.readouterr().out

@@ -82,7 +82,7 @@ SLIPS: list[tuple[str, list[str], str, dict[str, object]]] = [
 def test_slips(command: str, words: list[str], code: str, values: dict[str, object]) -> None:
     with refused(code, UsageError, **values) as caught:
         options(command, *words)
-    assert caught.value.say("zh") != str(caught.value)
+    assert caught.value.translate("zh") != str(caught.value)
 
 
 @pytest.mark.parametrize(

@@ -167,6 +167,6 @@ def test_values_that_are_kept_come_back_to_the_bit() -> None:
     given = {"a": (values, [1, 0.1, float("inf"), None, True, sentence]), 3: {"b": values > 0}}
     back = _made(_plain(given))
     assert back["a"][0].tobytes() == values.tobytes() and back["a"][1] == given["a"][1]  # type: ignore[index]
-    assert (back[3]["b"] == (values > 0)).all() and back["a"][1][5].say("zh") == sentence.say("zh")
+    assert (back[3]["b"] == (values > 0)).all() and back["a"][1][5].translate("zh") == sentence.translate("zh")
     with pytest.raises(TypeError):
         _plain(object())

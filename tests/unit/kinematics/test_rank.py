@@ -154,4 +154,4 @@ def test_position_that_is_not_solved() -> None:
 def test_a_second_guide_beside_the_first_is_named() -> None:
     """3·3 - 2·5 = -1; parallel guides leave the slider-crank's one freedom, inclined ones hold the piston."""
     report = rank_from_drawing(lw.loads(TWO_GUIDES_DRAWN.replace("SIZE", "10 deg")))
-    assert report is not None and report.mobility == 0 and "'lower'" not in report.say()
+    assert report is not None and report.mobility == 0 and "'lower'" not in report.translate()

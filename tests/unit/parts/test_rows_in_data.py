@@ -39,8 +39,8 @@ def check(result: parts.Result) -> None:
 def test_rows_of_the_text_are_rows_of_the_data(name: str) -> None:
     result = solved(name)
     for language in ("en", "zh"):
-        say = speaker(language)
-        for block in every(result.blocks(say)):
+        translate = speaker(language)
+        for block in every(result.blocks(translate)):
             labels = [texts[0] for texts in block.table(result.labels).texts(language)[1:]]
             assert len(set(labels)) == len(labels), (block.key, labels)
     if not isinstance(result, Optimum):  # has more in its data than in its text: both sides, slack and price

@@ -23,7 +23,7 @@ from linkwright.reports.document import Figure, Formula, Heading, Paragraph, Tab
 from linkwright.reports.formula import formula
 from linkwright.reports.report import report
 from linkwright.reports.typst_parts import typst
-from linkwright.words import _, say
+from linkwright.words import _, translate
 
 NAMES = parts.gallery_names()
 
@@ -37,7 +37,7 @@ def headings(found: object, level: int) -> list[str]:
 def test_a_calculation_is_a_chapter_like_a_textbook_example(language: str) -> None:
     found = report("gallery:simple_beam", language=language)
     expected = (_("Purpose"), _("Given data"), _("Sketch"), _("Solution"), _("Results"))
-    assert headings(found, 2) == [say(each, language) for each in expected]
+    assert headings(found, 2) == [translate(each, language) for each in expected]
     assert len(headings(found, 1)) == 1 and not found.missing
     blocks = found.document.blocks
     assert sum(isinstance(b, Figure) for b in blocks) == 2
@@ -72,7 +72,7 @@ def test_given_data_are_those_of_the_file_with_symbol_and_unit() -> None:
     assert rows["θ"] == ("225", "°") and rows["μ"] == ("0.3", "")
     assert rows["M"] == ("150", "N·m") and rows["r"] == ("100", "mm")
     beam = report("gallery:simple_beam").document.blocks
-    loads = next(b for b in beam if isinstance(b, Table) and say(_("loads")) in b.caption)
+    loads = next(b for b in beam if isinstance(b, Table) and translate(_("loads")) in b.caption)
     assert [plain(row[0]) for row in loads.rows] == ["q", "M0"]
 
 
@@ -139,7 +139,7 @@ def test_every_chapter_is_complete_in_both_languages(name: str) -> None:
     for language in ("en", "zh"):
         found = report(f"gallery:{name}", language=language)
         assert not found.missing and not found.broken
-        assert say(_("Given data"), language) in headings(found, 2)
+        assert translate(_("Given data"), language) in headings(found, 2)
 
 
 def test_given_data_follow_what_is_changed_in_code() -> None:
@@ -190,10 +190,10 @@ def test_own_text_errata_and_title_of_a_calculation(tmp_path: Path) -> None:
     found = report(str(path))
     assert found.document.title == "Beams" and found.document.lines == ("Li",)
     blocks = found.document.blocks
-    at = next(i for i, b in enumerate(blocks) if isinstance(b, Heading) and b.text == say(_("Solution")))
+    at = next(i for i, b in enumerate(blocks) if isinstance(b, Heading) and b.text == translate(_("Solution")))
     after = blocks[at + 1]
     assert isinstance(after, Paragraph) and plain(after.text) == "Own words."
-    assert headings(found, 2)[-2:] == [say(_("Appendix: all numbers")), say(_("Mistakes of the source"))]
+    assert headings(found, 2)[-2:] == [translate(_("Appendix: all numbers")), translate(_("Mistakes of the source"))]
     assert report(str(path), language="zh").document.title == "梁"
 
 

@@ -30,7 +30,7 @@ from linkwright.reports.report import report
 from linkwright.reports.section import SECTIONS
 from linkwright.reports.sections.reactions import loaded_joints
 from linkwright.reports.settings import settings
-from linkwright.words import LANGUAGES, _, pgettext, say
+from linkwright.words import LANGUAGES, _, pgettext, translate
 from linkwright.words.message import in_language
 
 typst = pytest.importorskip("typst")
@@ -44,7 +44,7 @@ def test_a_report_of_every_kind_of_machine(name: str) -> None:
     found = report(f"gallery:{name}", sections=LIGHT, language=language)
     assert not found.broken
     titles = [plain(b.text) for b in found.document.blocks if isinstance(b, Heading) and b.level == 1]
-    assert titles == [say(SECTIONS[each].title, language) for each in LIGHT]
+    assert titles == [translate(SECTIONS[each].title, language) for each in LIGHT]
 
 
 def test_every_section_has_a_title_and_the_command_knows_all() -> None:

@@ -71,7 +71,7 @@ def test_every_way_finds_the_same(text: str, key: str, tmp_path: Path, capsys: p
     for language in LANGUAGES:
         shown = solved(text, language, str(tmp_path))["findings"]
         assert [(each["key"], each["code"]) for each in shown] == [(each.key, each.code) for each in found]
-        own = [each.say(language) for each in found]
+        own = [each.translate(language) for each in found]
         assert all(each["sentence"] in said for each, said in zip(shown, own, strict=True)), own
         assert [each["line"] for each in shown] == [_line(each) for each in found]
 

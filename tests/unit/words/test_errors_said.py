@@ -18,16 +18,16 @@ CHINESE = re.compile("[一-鿿]")
 
 def test_an_error_says_its_sentence_in_both_languages() -> None:
     error = LinkwrightError(STEEP)
-    assert str(error) == error.say() == STEEP
-    assert error.say("zh") == STEEP.translate("zh") and CHINESE.search(error.say("zh"))
+    assert str(error) == error.translate() == STEEP
+    assert error.translate("zh") == STEEP.translate("zh") and CHINESE.search(error.translate("zh"))
 
 
 def test_an_error_is_a_value_of_another_sentence() -> None:
     outer = LinkwrightError(_(ABOUT, name="--at", cause=LinkwrightError(STEEP)))
-    assert str(outer).endswith(STEEP) and outer.say("zh").endswith(STEEP.say("zh"))
-    assert "--at" in str(outer) and "--at" in outer.say("zh")
+    assert str(outer).endswith(STEEP) and outer.translate("zh").endswith(STEEP.translate("zh"))
+    assert "--at" in str(outer) and "--at" in outer.translate("zh")
     again = pickle.loads(pickle.dumps(copy.deepcopy(outer)))
-    assert again.say("zh") == outer.say("zh") and (again.code, again.values["sine"]) == (STEEP.code, "0")
+    assert again.translate("zh") == outer.translate("zh") and (again.code, again.values["sine"]) == (STEEP.code, "0")
 
 
 def test_the_code_is_that_of_what_is_within() -> None:
@@ -56,23 +56,23 @@ def test_values_are_those_of_what_is_within_too() -> None:
 def test_lists_take_the_comma_of_the_language() -> None:
     sentence = _("group ({links}) at {where}", links=("a", "b"), where="30°")
     for language in ("en", "zh"):
-        assert f"a{_(', ').translate(language)}b" in sentence.say(language)
+        assert f"a{_(', ').translate(language)}b" in sentence.translate(language)
 
 
 def test_a_finding_puts_place_and_remedy_together() -> None:
     finding = Finding("warning", "a.yaml:3:1", "links.crank", STEEP, REMEDY, "x")
     for language in ("en", "zh"):
-        message, remedy = STEEP.say(language), REMEDY.say(language)
+        message, remedy = STEEP.translate(language), REMEDY.translate(language)
         body = _("{message}; {remedy}", message=message, remedy=remedy).translate(language)
         told = _("warning: {body}", body=body).translate(language)
-        assert finding.say(language) == f"a.yaml:3:1: links.crank: {told}"
-    assert str(finding) == finding.say("en") and finding.values == {"sine": "0"}
+        assert finding.translate(language) == f"a.yaml:3:1: links.crank: {told}"
+    assert str(finding) == finding.translate("en") and finding.values == {"sine": "0"}
     assert str(Finding("error", "", "", "bare")) == "bare"
-    assert ModelError([finding, finding]).say("zh") == "\n".join([finding.say("zh")] * 2)
+    assert ModelError([finding, finding]).translate("zh") == "\n".join([finding.translate("zh")] * 2)
 
 
 def test_a_remedy_follows_its_message() -> None:
     error = QuantityError(STEEP, REMEDY)
     for language in ("en", "zh"):
-        told = error.say(language)
-        assert told.startswith(STEEP.say(language)) and told.endswith(REMEDY.say(language))
+        told = error.translate(language)
+        assert told.startswith(STEEP.translate(language)) and told.endswith(REMEDY.translate(language))

@@ -98,16 +98,16 @@ def test_an_unknown_language_is_refused() -> None:
     with pytest.raises(KeyError):
         lw.structure(store.machine(CRUSHER)).text("de")
     with pytest.raises(KeyError):
-        Outcome(True).say("de")
+        Outcome(True).translate("de")
 
 
 def test_rank_of_the_wedge_in_chinese() -> None:
     motion = store.motion("wedge", 5)
     report = jacobian_rank(motion)
-    assert report.say() == report.sentence
+    assert report.translate() == report.sentence
     assert code_of(report.sentence) == "rank.differs"
-    assert re.findall(r"\d+", report.say("zh")) == re.findall(r"\d+", report.say("en"))
-    assert foreign(report.say("zh"), motion.mechanism) == set()
+    assert re.findall(r"\d+", report.translate("zh")) == re.findall(r"\d+", report.translate("en"))
+    assert foreign(report.translate("zh"), motion.mechanism) == set()
 
 
 @pytest.mark.parametrize(
@@ -124,15 +124,15 @@ def test_rank_of_a_drawing_in_both_languages(span: float, apex: tuple[float, flo
     report = rank_from_drawing(mechanism)
     assert report is not None
     assert code_of(report.sentence) == code
-    assert foreign(report.say("zh"), mechanism) == set()
+    assert foreign(report.translate("zh"), mechanism) == set()
 
 
 def test_distance_that_is_missing_is_said_in_chinese() -> None:
     """At 120° the pins are hypot(5.5, 2.598) m apart, links of 2 m and 2.5 m reach 4.5 m."""
     mechanism = fourbar(3, 2, 2.5)
     outcome = lw.solve_motion(mechanism, at=[radians(120)], failures="mark").outcomes[0]
-    assert outcome.say("en") == outcome.sentence
-    said = outcome.say("zh")
+    assert outcome.translate("en") == outcome.sentence
+    said = outcome.translate("zh")
     assert (code_of(outcome.sentence), values_of(outcome.sentence)["signature"]) == ("outcome.apart", "RRR")
     assert "4500 mm" in said
     assert f"{1e3 * (hypot(5.5, 1.5 * 3**0.5) - 4.5):.3f} mm" in said
@@ -177,8 +177,8 @@ def test_notes_on_change_points_in_chinese() -> None:
 def test_every_dyad_says_what_is_missing(signature: str, facts: dict[str, float], number: str) -> None:
     reason = DYADS[signature]().explain(facts)
     assert isinstance(reason, Message)
-    assert number in reason and number in reason.say("zh")
-    assert set(LATIN.findall(reason.say("zh"))) <= {"mm", "e"}
+    assert number in reason and number in reason.translate("zh")
+    assert set(LATIN.findall(reason.translate("zh"))) <= {"mm", "e"}
 
 
 def test_sentences_survive_copies_and_processes() -> None:
@@ -191,15 +191,15 @@ def test_sentences_survive_copies_and_processes() -> None:
     )
     for again in (copy.deepcopy(outer), pickle.loads(pickle.dumps(outer))):
         assert again == outer
-        assert again.say("zh") == outer.say("zh")
-    assert inner.say("zh") in outer.say("zh")
+        assert again.translate("zh") == outer.translate("zh")
+    assert inner.translate("zh") in outer.translate("zh")
     assert in_language("as it is", "zh") == "as it is"
 
 
 def test_data_for_programs_stay_english(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert main(["structure", f"gallery:{CRUSHER}", "--json", "--lang", "zh"]) == 0
     rank = json.loads(capsys.readouterr().out)["rank"]
-    assert rank == words.say(_("Grübler's mobility {count} is confirmed by the rank of the Jacobian", count=1))
+    assert rank == words.translate(_("Grübler's mobility {count} is confirmed by the rank of the Jacobian", count=1))
     path = tmp_path / "linkage.yaml"
     path.write_text(PARALLELOGRAM, encoding="utf-8")
     assert main(["solve", str(path), "--json", "--lang", "zh"]) == 0

@@ -37,7 +37,7 @@ def run(options: Options, session: Session) -> int:
         session.show_data({"ok": all(entry["ok"] for entry in files), "files": files})
     else:
         for name, found in results:
-            summary = session.say(found.summary(name))
+            summary = session.translate(found.summary(name))
             session.show(*map(session.finding, found.findings), bold(summary) if found.errors else summary)
     everything = [finding for _unused, found in results for finding in found.findings]
     if any(finding.code in NO_FILE for finding in everything):

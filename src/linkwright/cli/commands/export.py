@@ -129,5 +129,5 @@ def run(options: Options, session: Session) -> int:
         return 0
     for number, outcome in enumerate(motion.outcomes):
         if not outcome.ok:
-            session.tell(f"{input_text(motion, number, degrees=True)}: {outcome.say(session.language)}")
+            session.tell(f"{input_text(motion, number, degrees=True)}: {outcome.translate(session.language)}")
     return int(not motion.complete)

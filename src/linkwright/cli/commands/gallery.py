@@ -77,11 +77,11 @@ def _show_list(part: str, session: Session) -> None:
     wide = max((len(entry["name"]) for entries in kinds for entry in entries), default=0)
     for title, entries in zip((None, CALCULATIONS, TASKS), kinds, strict=True):
         if title and entries:
-            session.show("", session.say(title))
+            session.show("", session.translate(title))
         for entry in entries:
             text = in_language(entry["title"], session.language)
             session.show(Text.assemble((entry["name"].ljust(wide), "bold"), f"  {text}"))
-    session.show("", session.say(NEXT))
+    session.show("", session.translate(NEXT))
 
 
 def _file_text(name: str | None, action: str) -> tuple[str, str]:

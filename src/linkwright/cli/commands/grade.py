@@ -36,7 +36,7 @@ def run(options: Options, session: Session) -> int:
     present(found, options, session)
     if faults and not session.json:
         session.tell_error(
-            session.say(
+            session.translate(
                 _("{count} of {of} sheets cannot be graded; the others are", count=len(faults), of=len(found))
             )
         )

@@ -77,7 +77,7 @@ def run(options: Options, session: Session) -> int:
     flywheel = DriveOptions(**{name: each for name, each in values.items() if each is not None})
     if options.file is None:
         flywheel.require_speed()
-        session.show_result(of_diagram(flywheel, session.say))
+        session.show_result(of_diagram(flywheel, session.translate))
         return 0
     mechanism, _findings = read_model(options.file, session)
     present(of_mechanism(mechanism, flywheel, options.steps), options, session)

@@ -54,7 +54,7 @@ def run(options: Options, session: Session) -> int:
     failures: Literal["mark", "raise"] = "mark" if options.mark else "raise"
     found = applicable_metrics(mechanism, names, forces=options.forces, steps=options.steps, failures=failures)
     errors = [in_language(each, session.language) for each in found.inapplicable]
-    errors += [] if found.error is None else [found.error.say(session.language)]
+    errors += [] if found.error is None else [found.error.translate(session.language)]
     write_result(found.table, options, session)
     if session.json:
         data = {"ok": not errors, **found.table.data(session.language)}

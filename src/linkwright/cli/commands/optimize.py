@@ -62,7 +62,7 @@ def run(options: Options, session: Session) -> int:
         with on_cluster(options.cluster), progress(session, _("searching")) as report:
             found = optimize(options.file, state=options.state, progress=report, **settings)
     except OptimizeError as error:
-        sentence = error.say(session.language)
+        sentence = error.translate(session.language)
         session.tell_error(sentence)
         if session.json:
             session.show_data({"ok": False, "error": sentence, "nearest": error.nearest.data()})
@@ -71,7 +71,7 @@ def run(options: Options, session: Session) -> int:
         return 1
     except KeyboardInterrupt as stopped:
         resume = RESUME.format(path=stopped.state) if isinstance(stopped, Interrupted) else NOTHING_STORED
-        session.tell(session.say(resume))
+        session.tell(session.translate(resume))
         raise
     written = write_models(options.output, found, force=options.force)
     write_diagram(found, options, session)

@@ -94,6 +94,6 @@ def run(options: Options, session: Session) -> int:
         content = found.content(path.suffix.lower())
     atomic_write(path, content, force=options.force)
     if found.missing and not session.json:
-        session.tell("\n  ".join([session.say(_("Not in the report:")), *found.missing]))
+        session.tell("\n  ".join([session.translate(_("Not in the report:")), *found.missing]))
     session.show_written(path, data={"ok": not found.broken, "file": str(path), "missing": list(found.missing)})
     return int(found.broken)

@@ -78,5 +78,5 @@ def run(options: Options, session: Session) -> int:
     else:
         session.show_written(options.output)
     if solved.trouble is not None:
-        session.tell_error(solved.trouble.say(session.language))
+        session.tell_error(solved.trouble.translate(session.language))
     return int(solved.trouble is not None or not solved.motion.complete)

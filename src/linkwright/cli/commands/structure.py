@@ -50,7 +50,7 @@ def run(options: Options, session: Session) -> int:
     session.show(bold(mechanism.name), "")
     session.show_tables(structure)
     if rank:
-        session.show(session.say(_("{sentence}.", sentence=rank)))
+        session.show(session.translate(_("{sentence}.", sentence=rank)))
     if program is not None:
         session.show("", *_counts(program).lines(session.language), "")
         session.show_as_is(program.text())

@@ -56,7 +56,7 @@ def run(options: Options, session: Session) -> int:
     with studio:
         if name is not None:
             studio.work.foresee(name, session.language)
-        session.show(session.say(_("The studio is at {url} (end it with Ctrl+C)", url=studio.url)))
+        session.show(session.translate(_("The studio is at {url} (end it with Ctrl+C)", url=studio.url)))
         if not options.no_browser:
             webbrowser.open(studio.url)
         studio.serve_forever()

@@ -75,7 +75,7 @@ def run(options: Options, session: Session) -> int:
         with resumable(options.state, task, (task, demands), session), on_cluster(options.cluster):
             found = synthesize(task, **demands)
     except SynthesisError as error:
-        sentence = error.say(session.language)
+        sentence = error.translate(session.language)
         session.tell_error(sentence)
         if session.json:
             nearest = None if error.nearest is None else error.nearest.data()

@@ -76,5 +76,5 @@ def run(options: Options, session: Session) -> int:
     else:
         count, questions = len(found.variants), len(found.task.questions)
         written = WRITTEN.format(count=count, questions=questions, path=folder)
-        session.show(session.say(written), session.say(found.difficulty.sentence))
+        session.show(session.translate(written), session.translate(found.difficulty.sentence))
     return 0

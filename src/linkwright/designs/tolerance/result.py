@@ -106,20 +106,22 @@ class Spread(SpreadNumbers, Result):
             if not all(is_position(self.study, output) for output in self._curves):
                 _unused3 = self.followed
 
-    def reason(self, text: str, say: Translate) -> str:
+    def reason(self, text: str, translate: Translate) -> str:
         """Whether linear and Monte Carlo agree, and if not, why."""
         if self.swept is None or (self.failed == 0 and abs(self.ratio(text) - 1.0) <= AGREE):
             return (
-                "" if self.swept is None else say(_("{name}: linear and Monte Carlo agree within 0.5 %.", name=text))
+                ""
+                if self.swept is None
+                else translate(_("{name}: linear and Monte Carlo agree within 0.5 %.", name=text))
             )
         lines = []
         if abs(self.ratio(text) - 1.0) > AGREE or math.isnan(self.ratio(text)):
-            lines.append(self._difference(text, say))
+            lines.append(self._difference(text, translate))
         close = self.closeness
         if close is not None and close[0] < NEAR:
             place = shown(close[1], "angle" if self.turning else "length", 4)
             lines.append(
-                say(
+                translate(
                     _(
                         "The cycle comes near a dead point (closeness {closeness} at {place}, 0 at a dead "
                         "point): there the derivatives grow without bound, and the linear spread holds for "
@@ -131,7 +133,7 @@ class Spread(SpreadNumbers, Result):
             )
         if self.failed:
             lines.append(
-                say(
+                translate(
                     _(
                         "{failed} of {count} machines do not pass the cycle; the numbers are of the others.",
                         failed=self.failed,
@@ -141,21 +143,21 @@ class Spread(SpreadNumbers, Result):
             )
         return " ".join(lines)
 
-    def _difference(self, text: str, say: Translate) -> str:
+    def _difference(self, text: str, translate: Translate) -> str:
         """Why the two spreads differ: the bend b of y over ±2σ makes its spread 1 + b²/4 times as large; where that
         is far less than the difference, it is too few machines."""
         name, bend = self.bend(text)
         values = {"name": text, "ratio": f"{self.ratio(text):.4g}", "dimension": name}
         values["bend"] = f"{100 * bend:.3g} %" if math.isfinite(bend) else "—"
         if self.failed or not 0.25 * bend**2 < SMALL * abs(self.ratio(text) - 1.0):
-            return say(
+            return translate(
                 _(
                     "{name}: Monte Carlo gives {ratio} times the linear spread, because the number is "
                     "not linear in the tolerances: over ±2σ of {dimension} it bends by {bend} of its "
                     "change."
                 ).format(**values)
             )
-        return say(
+        return translate(
             _(
                 "{name}: Monte Carlo gives {ratio} times the linear spread, and the number hardly "
                 "bends over the tolerances ({bend} over ±2σ of {dimension}): {count} machines tell "
@@ -181,13 +183,13 @@ class Spread(SpreadNumbers, Result):
             return found
         return {text: self.values(text) for text in self.study.of}
 
-    def blocks(self, say: Translate) -> list[Block]:
-        found = [block for text in self.study.of for block in self._summary_blocks(text, say)]
+    def blocks(self, translate: Translate) -> list[Block]:
+        found = [block for text in self.study.of for block in self._summary_blocks(text, translate)]
         for output in self.study.curves:
-            found.append(self._curve_block(output, say))
+            found.append(self._curve_block(output, translate))
         return found
 
-    def _summary_blocks(self, text: str, say: Translate) -> list[Block]:
+    def _summary_blocks(self, text: str, translate: Translate) -> list[Block]:
         kind = self.dimension(text)
         rows = [Row("nominal", self.nominal(text), kind)]
         shift = self.shift(text)
@@ -220,25 +222,29 @@ class Spread(SpreadNumbers, Result):
             note = _("∂y/∂p = {slope}", slope=slope)
             percent = f"{100 * each.share:.2f} %"
             parts.append(Row(each.name, each.share, label=each.name, note=note, text=percent))
-        found = [Block(text, text, rows, tuple(filter(None, [self.reason(text, say)])))]
+        found = [Block(text, text, rows, tuple(filter(None, [self.reason(text, translate)])))]
         return (
             [*found, Block(f"{text}: contributions", _("Contributions to the variance"), parts)] if parts else found
         )
 
-    def _pins_remark(self, output: str, say: Translate) -> tuple[str, ...]:
+    def _pins_remark(self, output: str, translate: Translate) -> tuple[str, ...]:
         """How near the pins lie to where their reactions press them, and where they cannot."""
         if not self.study.holes("pressed") or is_position(self.study, output):
             return ()
         settled = self.followed.followed
         off = float(self.followed.residual[settled].max()) if settled.any() else math.nan
         sentences = (
-            [say(_("The pins lie within {off} of where their reactions press them.", off=shown(off, "angle", 2)))]
+            [
+                translate(
+                    _("The pins lie within {off} of where their reactions press them.", off=shown(off, "angle", 2))
+                )
+            ]
             if settled.any()
             else []
         )
         if not settled.all():
             sentences.append(
-                say(
+                translate(
                     _(
                         "At {count} of {steps} positions a reaction jumps or turns faster than the pin can "
                         "follow in its hole: no value there.",
@@ -249,7 +255,7 @@ class Spread(SpreadNumbers, Result):
             )
         return (" ".join(sentences),)
 
-    def _curve_block(self, output: str, say: Translate) -> Block:
+    def _curve_block(self, output: str, translate: Translate) -> Block:
         kind = self.dimension(output)
         place, _unused, deviation = self.curve(output)
         found = {"largest_deviation": deviation}
@@ -270,13 +276,13 @@ class Spread(SpreadNumbers, Result):
                 else places.format(place=at)
             )
             rows.append(Row(key, float(values[i]), kind, "", note))
-        return Block(f"curve {output}", _("Curve {name}", name=output), rows, self._pins_remark(output, say))
+        return Block(f"curve {output}", _("Curve {name}", name=output), rows, self._pins_remark(output, translate))
 
-    def steps(self, say: Translate) -> list[Step]:
+    def steps(self, translate: Translate) -> list[Step]:
         found: list[Step] = []
         for text in self.study.of:
             kind, step = self.dimension(text), Step(str(len(found) + 1), text)
-            step.say(say(_("σ² = Σ (∂y/∂p)²·σ_p², derivatives exact at the nominal mechanism (SI)")))
+            step.note(translate(_("σ² = Σ (∂y/∂p)²·σ_p², derivatives exact at the nominal mechanism (SI)")))
             for each in self.shares(text):
                 product = abs(each.slope * each.deviation)
                 step.put(
@@ -289,16 +295,18 @@ class Spread(SpreadNumbers, Result):
             step.put("σ", "√(Σ (∂y/∂p·σ)²)", self.linear(text), kind)
             if self.swept is not None:
                 step.put("s", "√(Σ (y − ȳ)²/(N − 1))", self.monte_carlo(text), kind)
-            reason = self.reason(text, say)
+            reason = self.reason(text, translate)
             if reason:
-                step.say(reason)
+                step.note(reason)
             found.append(step)
         for pin in self.study.holes("pressed"):
-            step = Step(str(len(found) + 1), say(_("Pin {pin} pressed by its own reaction", pin=pin)))
+            step = Step(str(len(found) + 1), translate(_("Pin {pin} pressed by its own reaction", pin=pin)))
             step.law("r = c·F/|F|; Δy(φ) = c·(∂y/∂x·F_x + ∂y/∂y·F_y)/|F|")
             for text in self.study.of:
                 shift = self.shift(text)
                 if not math.isnan(shift):
                     step.put(f"Δ {text}", "", shift, self.dimension(text))
             found.append(step)
-        return found or [Step("1", say(_("σ² = Σ (∂y/∂p)²·σ_p², derivatives exact at the nominal mechanism (SI)")))]
+        return found or [
+            Step("1", translate(_("σ² = Σ (∂y/∂p)²·σ_p², derivatives exact at the nominal mechanism (SI)")))
+        ]

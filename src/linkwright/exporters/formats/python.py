@@ -16,8 +16,8 @@ def content(results: Results, *, model: str = "machine.yaml") -> bytes:
     own (three or more links, higher pairs, drivers within the group).
     """
     results.first_ok()
-    say, language = speaker(results.language), results.language
-    listing = Listing(results.motion, results.forces, say, source=model, language=language)
+    translate, language = speaker(results.language), results.language
+    listing = Listing(results.motion, results.forces, translate, source=model, language=language)
     return listing.text().encode()
 
 

@@ -144,7 +144,7 @@ class Workbook(Sheets):
 
     def write(self) -> None:
         """All sheets."""
-        self._rows("model", _MODEL, list(_model(self.results, self.say)))
+        self._rows("model", _MODEL, list(_model(self.results, self.translate)))
         self._rows("structure", _GROUPS, list(_groups(self.results)))
         first, *others = tables(self.results)
         leading = self._turned(first.columns)
@@ -159,7 +159,7 @@ class Workbook(Sheets):
         if numbers:
             self._rows("metrics", _METRICS, numbers)
 
-    def say(self, message: Message) -> str:
+    def translate(self, message: Message) -> str:
         """A message in the language of the results."""
         return message.translate(self.results.language)
 
@@ -167,14 +167,14 @@ class Workbook(Sheets):
         return [column.in_degrees(rates=True) if self.degrees else column for column in columns]
 
     def _sheet(self, subject: str) -> Any:
-        return self.book.add_worksheet(self.say(SHEETS[subject]))
+        return self.book.add_worksheet(self.translate(SHEETS[subject]))
 
     def _rows(self, subject: str, columns: Mapping[str, int], rows: Sequence[Sequence[Cell]]) -> None:
         """A sheet of a table under a heading; columns by their words, with their widths."""
         sheet = self._sheet(subject)
         for column, width in enumerate(columns.values()):
             sheet.set_column(column, column, width)
-        self._put(sheet, 0, [self.say(HEADS[word]) for word in columns], self.head)
+        self._put(sheet, 0, [self.translate(HEADS[word]) for word in columns], self.head)
         for row, cells in enumerate(rows, start=1):
             self._put(sheet, row, cells, self.text)
         sheet.freeze_panes(1, 0)
@@ -207,8 +207,8 @@ class Workbook(Sheets):
 
     def _heading(self, column: Column) -> str:
         """Owner, quantity in words, unit, each on a line."""
-        owner = self.say(_("shaking force")) if column.owner == "shaking_force" else column.owner
-        word = self.say(QUANTITIES[column.quantity]) if column.quantity else self.say(_("input"))
+        owner = self.translate(_("shaking force")) if column.owner == "shaking_force" else column.owner
+        word = self.translate(QUANTITIES[column.quantity]) if column.quantity else self.translate(_("input"))
         return printable("\n".join(filter(None, (owner, word, f"[{column.unit}]"))))
 
 
@@ -224,19 +224,19 @@ def number_format(values: np.ndarray[Any, np.dtype[np.float64]]) -> str:
     return "0." + "0" * decimals if decimals else "0"
 
 
-def _model(results: Results, say: Callable[[Message], str]) -> Iterable[Sequence[Cell]]:
+def _model(results: Results, translate: Callable[[Message], str]) -> Iterable[Sequence[Cell]]:
     mechanism = results.mechanism
-    yield say(_("name")), mechanism.name, ""
+    yield translate(_("name")), mechanism.name, ""
     for name, text in ((_("purpose"), mechanism.purpose), (_("source"), mechanism.source)):
         if text:
-            yield say(name), text, ""
-    yield say(_("mobility")), results.structure.mobility, ""
-    yield say(pgettext("export", "positions")), results.motion.steps, ""
-    yield say(_("positions reached")), int(results.motion.ok.sum()), ""
+            yield translate(name), text, ""
+    yield translate(_("mobility")), results.structure.mobility, ""
+    yield translate(pgettext("export", "positions")), results.motion.steps, ""
+    yield translate(_("positions reached")), int(results.motion.ok.sum()), ""
     if results.motion.positions.period is not None:
-        yield say(_("period")), Amount(results.motion.positions.period), "s"
+        yield translate(_("period")), Amount(results.motion.positions.period), "s"
     for note in results.notes:
-        yield say(pgettext("export", "note")), note, ""
+        yield translate(pgettext("export", "note")), note, ""
     for address, value in mechanism.dimensions().items():
         yield address, Amount(value), si_symbol(dimension_of(mechanism, address) or NONE)
 

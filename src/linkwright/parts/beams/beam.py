@@ -324,7 +324,7 @@ class BeamLine(Result):
             found[name] = np.where(side, self.line.value(quantity, x, "left"), self.line.value(quantity, x))
         return found
 
-    def blocks(self, say: Translate) -> list[Block]:
+    def blocks(self, translate: Translate) -> list[Block]:
         rows = []
         for name, (force, couple) in self.reactions.items():
             kind = self.beam.supports[name].kind
@@ -336,15 +336,15 @@ class BeamLine(Result):
         extremes = []
         for quantity in QUANTITIES:
             for word, (x, value) in zip(("least", "largest"), self.extremes(quantity), strict=True):
-                label = f"{say(QUANTITY_NAMES[quantity])}, {say(EXTREMES[word])}"
+                label = f"{translate(QUANTITY_NAMES[quantity])}, {translate(EXTREMES[word])}"
                 note = _("at x = {x}", x=shown(x, "length"))
                 extremes.append(Row(f"{word}_{quantity}", value, DIMENSIONS[quantity], label, note))
         found.append(Block("extremes", _("Extremes"), extremes))
-        found.append(Block("places", _("Key points"), self._places(say)))
-        strength = self._strength(say)
+        found.append(Block("places", _("Key points"), self._places(translate)))
+        strength = self._strength(translate)
         return [*found, Block("strength", _("Strength"), strength)] if strength else found
 
-    def _places(self, say: Translate) -> list[Row]:
+    def _places(self, translate: Translate) -> list[Row]:
         """Moment and deflection where segments meet."""
         rows = []
         for x in [*(segment.start for segment in self.line.segments), self.beam.length]:
@@ -360,7 +360,7 @@ class BeamLine(Result):
             rows.append(Row(f"deflection_{x:g}", float(self.deflection(x)[0]), "length", f"w({at})"))
         return rows
 
-    def _strength(self, say: Translate) -> list[Row]:
+    def _strength(self, translate: Translate) -> list[Row]:
         rows = []
         if self.stress is not None:
             rows.append(
@@ -372,17 +372,17 @@ class BeamLine(Result):
             rows.append(Row("needed_modulus", self.needed_modulus, "section_modulus"))
         return rows
 
-    def steps(self, say: Translate) -> list[Step]:
-        return [self._balance_step(say), self._segment_step(say), self._extreme_step(say)]
+    def steps(self, translate: Translate) -> list[Step]:
+        return [self._balance_step(translate), self._segment_step(translate), self._extreme_step(translate)]
 
-    def _balance_step(self, say: Translate) -> Step:
+    def _balance_step(self, translate: Translate) -> Step:
         """Reactions, and both equations of equilibrium with them."""
-        step = Step("1", say(_("Reactions and equilibrium")))
+        step = Step("1", translate(_("Reactions and equilibrium")))
         holds = {name: each.hold for name, each in self.beam.supports.items()}
         unknown = sum(h.deflection + h.slope for h in holds.values())
         degree = unknown - 2 - len(self.beam.hinges)
-        step.say(
-            say(
+        step.note(
+            translate(
                 (
                     _("Equilibrium alone gives the reactions.")
                     if degree <= 0
@@ -397,7 +397,7 @@ class BeamLine(Result):
                 step.put(f"{name}.F", "", force, "force")
             if couple:
                 step.put(f"{name}.M", "", couple, "torque")
-        step.say(say(_("Proof by the sums over all forces, and moments about x = 0:")))
+        step.note(translate(_("Proof by the sums over all forces, and moments about x = 0:")))
         forces = [f for f, _unused in self.reactions.values()] + [p.force for p in points]
         forces += [(s.first + s.last) / 2 * (s.end - s.start) for s in spreads]
         step.put("ΣF", "", rounded(forces), "force", numbers=signed(forces, "force"))
@@ -409,15 +409,18 @@ class BeamLine(Result):
         step.put("ΣM(0)", "", rounded(moments), "torque", numbers=signed(moments, "torque"))
         return step
 
-    def _segment_step(self, say: Translate) -> Step:
+    def _segment_step(self, translate: Translate) -> Step:
         """The polynomials of every segment."""
         step = Step(
-            "2", say(_("Shear force, moment, slope and deflection, segment by segment (ξ from the segment's start)"))
+            "2",
+            translate(
+                _("Shear force, moment, slope and deflection, segment by segment (ξ from the segment's start)")
+            ),
         )
         largest = {quantity: self._largest_coefficient(quantity) for quantity in QUANTITIES}
         for segment in self.line.segments:
-            step.say(
-                say(
+            step.note(
+                translate(
                     _(
                         "from {start} to {end}, EI = {rigidity} N·m²",
                         start=shown(segment.start, "length"),
@@ -445,12 +448,12 @@ class BeamLine(Result):
             for p in [getattr(each, quantity)]
         )
 
-    def _extreme_step(self, say: Translate) -> Step:
-        step = Step("3", say(_("Extremes")))
+    def _extreme_step(self, translate: Translate) -> Step:
+        step = Step("3", translate(_("Extremes")))
         for symbol, quantity, zero in (("V", "shear", "q"), ("M", "moment", "V"), ("w", "deflection", "θ")):
             x, value = self.largest(quantity)
-            step.say(
-                say(
+            step.note(
+                translate(
                     _(
                         "{symbol} is largest in size where {zero} = 0 or at an end or jump: x = {x}",
                         symbol=symbol,

@@ -394,15 +394,15 @@ class LinkStress(Result):
             "deflection [m]": np.hypot(self.deflection[:, :, 0], self.deflection[:, :, 1]).max(axis=1),
         }
 
-    def blocks(self, say: Translate) -> list[Block]:
-        rows = [self._row(key, say) for key in LARGEST if key != "largest_deflection"]
+    def blocks(self, translate: Translate) -> list[Block]:
+        rows = [self._row(key, translate) for key in LARGEST if key != "largest_deflection"]
         if self.safety is not None and self.needed_modulus is not None:
             rows += [Row("safety", self.safety), Row("needed_modulus", self.needed_modulus, "section_modulus")]
-        rows.append(self._row("largest_deflection", say))
+        rows.append(self._row("largest_deflection", translate))
         rows.append(Row("closure", self.closure, "force", remainder=True))
-        return [Block("cycle", _("Largest values over the cycle"), rows, self._remarks(say))]
+        return [Block("cycle", _("Largest values over the cycle"), rows, self._remarks(translate))]
 
-    def _row(self, key: str, say: Translate) -> Row:
+    def _row(self, key: str, translate: Translate) -> Row:
         found, i, k = self.peaks[key]
         note = _("at {at}, x = {x}", at=found._input(i), x=shown(self.stations[k], "length"))
         return Row(key, self.largest(key), LARGEST[key], "", note)
@@ -411,12 +411,12 @@ class LinkStress(Result):
         turning = next(iter(self.forces.motion.positions.rotary.values()), True)
         return shown(float(self.forces.motion.input[index]), "angle" if turning else "length")
 
-    def _remarks(self, say: Translate) -> list[str]:
+    def _remarks(self, translate: Translate) -> list[str]:
         found = []
         a, b = self.mass.span
         if (a, b) != (0.0, self.axis.length):
             found.append(
-                say(
+                translate(
                     _(
                         "The inertia of {link} is smaller than that of an even bar: its mass is spread "
                         "evenly from {start} to {end}.",
@@ -428,7 +428,7 @@ class LinkStress(Result):
             )
         if self.mass.density(np.linspace(a, b, 101)).min() < -1e-9 * max(self.link.mass, 1e-300) / (b - a):
             found.append(
-                say(
+                translate(
                     _(
                         "Mass, centre and inertia of {link} cannot be spread along it without a negative "
                         "density: the mass does not lie along the line, and the moments between the points "
@@ -439,7 +439,7 @@ class LinkStress(Result):
             )
         if any(each.name == "loads" for each in self.point_forces):
             found.append(
-                say(
+                translate(
                     _(
                         "The loads on {link} act as their resultant where its line meets the axis.",
                         link=self.problem.link,
@@ -448,21 +448,23 @@ class LinkStress(Result):
             )
         return found
 
-    def steps(self, say: Translate) -> list[Step]:
+    def steps(self, translate: Translate) -> list[Step]:
         there, i, k = self.peaks["largest_stress"]
-        step = Step("1", say(_("Position with the largest stress: {at}", at=there._input(i))))
+        step = Step("1", translate(_("Position with the largest stress: {at}", at=there._input(i))))
         a, b = self.mass.span
         density = np.asarray(self.mass.density.coef, dtype=float)
         largest = np.abs(density * (b - a) ** np.arange(len(density))).max()
         text = polynomial_text(density, largest, b - a).replace("ξ", "s")
-        step.say(say(_("Mass along the link with the same mass, centre and inertia")))
+        step.note(translate(_("Mass along the link with the same mass, centre and inertia")))
         step.law(f"ρ(s) = {text}", "kg/m")
-        step.say(say(_("Forces on the link in its own axes (along, across)")))
+        step.note(translate(_("Forces on the link in its own axes (along, across)")))
         for each in there.point_forces:
             where, (x, y) = shown(float(each.place[i]), "length"), each.force[i].tolist()
             values = f"({shown(x, 'force')}, {shown(y, 'force')})"
-            step.say(f"{each.name}, s = {where}: {values}, {shown(float(each.couple[i]), 'torque')}")
-        cut = Step("2", say(_("Cut at s: the forces on the part below s balance V, M and N (inertia −ρ·a included)")))
+            step.note(f"{each.name}, s = {where}: {values}, {shown(float(each.couple[i]), 'torque')}")
+        cut = Step(
+            "2", translate(_("Cut at s: the forces on the part below s balance V, M and N (inertia −ρ·a included)"))
+        )
         cut.put("s", "", float(self.stations[k]), "length")
         cut.put("V", "Σ F + ∫ q ds", float(there.shear[i, k]), "force")
         cut.put("M", "Σ F·(s − s_k) − Σ C + ∫∫ q ds²", float(there.moment[i, k]), "torque")

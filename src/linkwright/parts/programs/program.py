@@ -287,25 +287,25 @@ class Optimum(Result):
         sides = [abs(float(side.value(self.point)[0])) for side in (constraint.left, constraint.right)]
         return constraint.sense == "=" or self.slack(constraint) <= ACTIVE * max(*sides, 1e-300)
 
-    def blocks(self, say: Translate) -> list[Block]:
+    def blocks(self, translate: Translate) -> list[Block]:
         rows = [
             Row(
                 name,
                 value,
                 label=name,
-                note=self._at_bound(name, say),
+                note=self._at_bound(name, translate),
                 scale=in_si(self._kind(name)),
                 text=in_kind(value, self._kind(name)),
             )
             for name, value in self.x.items()
         ]
-        word = say(_("minimum") if self.program.minimize else _("maximum"))
+        word = translate(_("minimum") if self.program.minimize else _("maximum"))
         kind = self.program.model.objective.dimension
         rows.append(Row("objective", self.value, label=word, scale=in_si(kind), text=in_kind(self.value, kind)))
-        found = [Block("optimum", _("Optimum"), rows, (self._method(say),))]
-        limits = [self._limit_row(c, say) for c in self.program.subject_to]
+        found = [Block("optimum", _("Optimum"), rows, (self._method(translate),))]
+        limits = [self._limit_row(c, translate) for c in self.program.subject_to]
         if limits:
-            found.append(Block("constraints", _("Constraints"), limits, self._explained(say)))
+            found.append(Block("constraints", _("Constraints"), limits, self._explained(translate)))
         return found
 
     def data(self) -> dict[str, Any]:
@@ -339,31 +339,31 @@ class Optimum(Result):
         """The dimension of a variable."""
         return self.program.variables[name].dimension
 
-    def _method(self, say: Translate) -> str:
-        return say(
+    def _method(self, translate: Translate) -> str:
+        return translate(
             WAYS[self.way].format(
                 agreed=self.agreed[0], starts=self.agreed[1], count=self.combinations, gap=f"{self.gap:.1e}"
             )
         )
 
-    def _at_bound(self, name: str, say: Translate) -> str:
+    def _at_bound(self, name: str, translate: Translate) -> str:
         variable, value = self.program.variables[name], self.x[name]
         for bound, word in ((variable.minimum, _("at its lower bound")), (variable.maximum, _("at its upper bound"))):
             if math.isfinite(bound) and abs(value - bound) <= ACTIVE * max(variable.size, abs(bound)):
-                return say(word)
+                return translate(word)
         return ""
 
-    def _limit_row(self, c: Constraint, say: Translate) -> Row:
+    def _limit_row(self, c: Constraint, translate: Translate) -> Row:
         left, right = (in_kind(float(side.value(self.point)[0]), side.dimension, 5) for side in (c.left, c.right))
         state = (
-            say(_("active"))
+            translate(_("active"))
             if self.active(c)
-            else say(_("{slack} left", slack=in_kind(self.slack(c), c.left.dimension, 4)))
+            else translate(_("{slack} left", slack=in_kind(self.slack(c), c.left.dimension, 4)))
         )
         text = f"{left} {c.sense} {right}"
         return Row(c.name, self.slack(c), label=c.name, note=state, scale=in_si(_limit_kind(c)), text=text)
 
-    def _explained(self, say: Translate) -> tuple[str, ...]:
+    def _explained(self, translate: Translate) -> tuple[str, ...]:
         """What one more unit of every active constraint is worth."""
         lines = []
         for c in self.program.subject_to:
@@ -374,13 +374,13 @@ class Optimum(Result):
                     unit_of_kind(self.program.model.objective.dimension),
                 )
                 gain = f"{abs(price) * size / factor:.6g} {own}".rstrip()
-                best = say(_("minimum") if self.program.minimize else _("maximum"))
+                best = translate(_("minimum") if self.program.minimize else _("maximum"))
                 effect = (
                     _("Raising the right side of {name} by {step} raises the {best} by {price} (shadow price).")
                     if price > 0
                     else _("Raising the right side of {name} by {step} lowers the {best} by {price} (shadow price).")
                 )
-                lines.append(say(effect.format(name=c.name, step=f"1 {unit}".rstrip(), best=best, price=gain)))
+                lines.append(translate(effect.format(name=c.name, step=f"1 {unit}".rstrip(), best=best, price=gain)))
         return tuple(lines)
 
     def _allowed(self, name: str, variable: Variable) -> str:
@@ -410,15 +410,15 @@ class Optimum(Result):
         try:
             set_sides = tuple(each for part in parts for each in sides(part))
         except LinkwrightError:
-            step.say(label + shown_text)
+            step.note(label + shown_text)
             return
         before = (upright(name), sign(":"), Atom("space", "quad")) if name else ()
         first = row((*before, set_sides[0]))
         step.items.append(Written(label + shown_text, (first, *set_sides[1:])))
 
-    def steps(self, say: Translate) -> list[Step]:
+    def steps(self, translate: Translate) -> list[Step]:
         task, found, test = (
-            Step(str(i), say(title))
+            Step(str(i), translate(title))
             for i, title in enumerate((_("The program"), _("The optimum"), _("Constraints at the optimum")), 1)
         )
         objective = self.program.model.objective
@@ -427,18 +427,18 @@ class Optimum(Result):
             self._law(task, c.text, c.name)
         for name, v in self.program.variables.items():
             self._law(task, self._allowed(name, v))
-        found.say(self._method(say))
+        found.note(self._method(translate))
         for name, value in self.x.items():
             found.law(f"{name} = {measured(self.program.shown(name, value))}")
         values = {name: self.program.shown(name, value) for name, value in self.x.items()}
         self._law(found, f"f = {objective.text}", values=values, result=in_kind(self.value, objective.dimension))
         for c in self.program.subject_to:
-            row = self._limit_row(c, say)
-            test.say(f"{c.name}: {row.text}   {row.note}")
-        for line in self._explained(say):
-            test.say(line)
+            row = self._limit_row(c, translate)
+            test.note(f"{c.name}: {row.text}   {row.note}")
+        for line in self._explained(translate):
+            test.note(line)
         if self.way == "nonlinear":
-            test.say(say(_("Condition of Karush, Kuhn and Tucker, scaled:")))
+            test.note(translate(_("Condition of Karush, Kuhn and Tucker, scaled:")))
             test.put("|∇f + Σλ∇g|", "", self.gap)
         return [task, found, test]
 

@@ -305,12 +305,12 @@ class Reactions(Result):
         own = np.where([".M" in name for name in state.names], state.scale, 1.0)
         return state.columns * rows[:, None] / own, -state.load * rows
 
-    def blocks(self, say: Translate) -> list[Block]:
+    def blocks(self, translate: Translate) -> list[Block]:
         rows = [Row(name, value, _dimension(name), name) for name, value in self.values.items()]
         return [Block("reactions", _("Reactions"), rows)]
 
-    def steps(self, say: Translate) -> list[Step]:
-        balance, found = Step("1", say(_("Equations of equilibrium"))), Step("2", say(_("Reactions")))
+    def steps(self, translate: Translate) -> list[Step]:
+        balance, found = Step("1", translate(_("Equations of equilibrium"))), Step("2", translate(_("Reactions")))
         state = _Balance(self.body)
         names = _sums(self.body)
         for i, name in enumerate(names):
@@ -326,7 +326,7 @@ class Reactions(Result):
             load = state.load[i] * arm
             rest = "" if not load else f" {'+' if load > 0 else '−'} {number(abs(load))}"
             balance.law(f"{name} = {sides.removeprefix('+ ') or '0'}{rest} = 0")
-        found.say(say(_("In matrix form A·X = B:")))
+        found.note(translate(_("In matrix form A·X = B:")))
         a, b = self.matrix
         found.items.append(system(a, list(self.values), b, names))
         for name, value in self.values.items():

@@ -199,7 +199,7 @@ class Resultant(Result):
         """Whether forces and moments sum to zero."""
         return not self.force.any() and not self.moment.any()
 
-    def blocks(self, say: Translate) -> list[Block]:
+    def blocks(self, translate: Translate) -> list[Block]:
         blocks = [Block("resultant", _("Resultant R"), _vector_rows("R", self.force, self.size, self.angles))]
         moment = [Row("M", m, "torque", f"M{axis}") for axis, m in zip("xyz", self.moment, strict=True)]
         blocks.append(Block("moment", _("Moment about the chosen point"), moment))
@@ -212,11 +212,11 @@ class Resultant(Result):
         remark = () if not self.balanced else (_("The system is in equilibrium."),)
         blocks.append(Block("equilibrant", _("Equilibrant E = −R"), against, remark))
         vectors = {name: each.vector for name, each in self.system.forces.items()}
-        return [*blocks, *asked_blocks(self.system, vectors, self.force, say)]
+        return [*blocks, *asked_blocks(self.system, vectors, self.force, translate)]
 
-    def steps(self, say: Translate) -> list[Step]:
+    def steps(self, translate: Translate) -> list[Step]:
         sums, about, wrench = (
-            Step(str(i), say(title))
+            Step(str(i), translate(title))
             for i, title in enumerate((_("Resultant"), _("Moment"), _("Reduction to a wrench")), 1)
         )
         for name, each in self.system.forces.items():
@@ -232,14 +232,14 @@ class Resultant(Result):
         for axis, angle, greek in zip("xyz", self.angles, "αβγ", strict=True):
             if self.size:
                 sums.put(greek, f"arccos(R{axis}/R)", float(angle), "angle")
-        self._moment_step(about, say)
+        self._moment_step(about, translate)
         if self.size:
             wrench.put("h", "R·M/R²", self.pitch, "length")
             for i, axis in enumerate("xyz"):
                 wrench.put(f"{axis}0", f"{axis} + (R × M)_{axis}/R²", float(self.axis_point[i]), "length")
         else:
-            wrench.say(
-                say(
+            wrench.note(
+                translate(
                     _("The system is in equilibrium.")
                     if self.balanced
                     else _("There is no resultant force: the system is a couple.")
@@ -247,11 +247,11 @@ class Resultant(Result):
             )
         found = [sums, about, wrench]
         vectors = {name: each.vector for name, each in self.system.forces.items()}
-        return [*found, *asked_steps(self.system, vectors, self.force, say, len(found))]
+        return [*found, *asked_steps(self.system, vectors, self.force, translate, len(found))]
 
-    def _moment_step(self, step: Step, say: Translate) -> None:
+    def _moment_step(self, step: Step, translate: Translate) -> None:
         about = spatial(self.system.about)
-        step.say(say(_("moments about the point ({place})", place=", ".join(f"{number(c)} m" for c in about))))
+        step.note(translate(_("moments about the point ({place})", place=", ".join(f"{number(c)} m" for c in about))))
         parts = [np.cross(each.place - about, each.vector) for each in self.system.forces.values()]
         parts += [spatial(each) for each in self.system.couples.values()]
         formulas = ("Σ (y·Fz − z·Fy)", "Σ (z·Fx − x·Fz)", "Σ (x·Fy − y·Fx)")
@@ -284,7 +284,7 @@ def _asked_for(
 
 
 def asked_blocks(
-    system: ForceSystem, vectors: Mapping[str, Floats], resultant: Floats, say: Translate
+    system: ForceSystem, vectors: Mapping[str, Floats], resultant: Floats, translate: Translate
 ) -> list[Block]:
     """Components along lines, with what is left across them, and angles between forces."""
     lines, pairs = _asked_for(system, vectors, resultant)
@@ -311,13 +311,13 @@ def angle_between(first: Floats, second: Floats) -> float:
 
 
 def asked_steps(
-    system: ForceSystem, vectors: Mapping[str, Floats], resultant: Floats, say: Translate, count: int
+    system: ForceSystem, vectors: Mapping[str, Floats], resultant: Floats, translate: Translate, count: int
 ) -> list[Step]:
     """Dot products of what :func:`asked_blocks` shows."""
     lines, pairs = _asked_for(system, vectors, resultant)
     found: list[Step] = []
     for name, line, of, vector in lines:
-        step = Step(str(count + len(found) + 1), say(_("Component of {of} along {name}", of=of, name=name)))
+        step = Step(str(count + len(found) + 1), translate(_("Component of {of} along {name}", of=of, name=name)))
         step.law(f"e = ({', '.join(number(float(c)) for c in line.way)})")
         numbers = dot_text(vector, line.way)
         along = float(vector @ line.way)
@@ -332,7 +332,7 @@ def asked_steps(
             continue
         step = Step(
             str(count + len(found) + 1),
-            say(_("Angle {name} between {first} and {second}", name=name, first=a, second=b)),
+            translate(_("Angle {name} between {first} and {second}", name=name, first=a, second=b)),
         )
         step.law(f"{a}·{b} = {dot_text(vectors[a], vectors[b])} = {number(float(vectors[a] @ vectors[b]))}", "N²")
         sizes = "·".join(number(float(np.linalg.norm(vectors[each]))) for each in (a, b))
@@ -435,7 +435,7 @@ class PointEquilibrium(Result):
             for name, each in self.system.forces.items()
         }
 
-    def blocks(self, say: Translate) -> list[Block]:
+    def blocks(self, translate: Translate) -> list[Block]:
         rows = [Row(name, value, "force", name) for name, value in self.magnitudes.items()]
         remarks = [
             _("{name} acts against its direction.", name=name) for name, value in self.magnitudes.items() if value < 0
@@ -447,12 +447,12 @@ class PointEquilibrium(Result):
         ]
         found = [Block("magnitudes", _("Unknown magnitudes"), rows, remarks)]
         found.append(Block("components", _("Their components"), parts))
-        return [*found, *asked_blocks(self.system, self.vectors, np.zeros(3), say)]
+        return [*found, *asked_blocks(self.system, self.vectors, np.zeros(3), translate)]
 
-    def steps(self, say: Translate) -> list[Step]:
+    def steps(self, translate: Translate) -> list[Step]:
         a, b = self.matrix
         directions, sums, solved = (
-            Step(str(i), say(title))
+            Step(str(i), translate(title))
             for i, title in enumerate(
                 (_("Directions and known forces"), _("Equilibrium of the point"), pgettext("statics", "Solution")), 1
             )
@@ -467,14 +467,14 @@ class PointEquilibrium(Result):
         rows = tuple(f"ΣF{axis}" for axis in "xyz"[: len(b)])
         for i, row in enumerate(rows):
             sums.law(f"{row} = {_row(a[i], list(self.magnitudes), -b[i])} = 0")
-        solved.say(say(_("In matrix form A·X = B:")))
+        solved.note(translate(_("In matrix form A·X = B:")))
         solved.items.append(system(a, list(self.magnitudes), b, rows))
         for name, value in self.magnitudes.items():
             solved.put(name, "", value, "force")
             if value < 0:
-                solved.say(say(_("{name} acts against its direction.", name=name)))
+                solved.note(translate(_("{name} acts against its direction.", name=name)))
         found = [directions, sums, solved]
-        return [*found, *asked_steps(self.system, self.vectors, np.zeros(3), say, len(found))]
+        return [*found, *asked_steps(self.system, self.vectors, np.zeros(3), translate, len(found))]
 
 
 def _row(coefficients: Floats, names: list[str], known: float) -> str:

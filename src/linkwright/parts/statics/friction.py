@@ -159,7 +159,7 @@ class BeltTensions(Result):
         tension = (self.slack - flung) * np.exp(self.belt.effective_friction * angle) + flung
         return {"angle [rad]": angle, "tension [N]": tension}
 
-    def blocks(self, say: Translate) -> list[Block]:
+    def blocks(self, translate: Translate) -> list[Block]:
         rows = [
             Row("tight", self.tight, "force"),
             Row("slack", self.slack, "force"),
@@ -172,8 +172,8 @@ class BeltTensions(Result):
             rows.append(Row("power", self.pull * self.belt.speed, "power"))
         return [Block("belt", "", rows)]
 
-    def steps(self, say: Translate) -> list[Step]:
-        belt, step = self.belt, Step("1", say(_("Belt friction (Euler, Eytelwein)")))
+    def steps(self, translate: Translate) -> list[Step]:
+        belt, step = self.belt, Step("1", translate(_("Belt friction (Euler, Eytelwein)")))
         mu = "μ" if belt.groove is None else "μ'"
         if belt.groove is not None:
             step.known |= {"μ": belt.friction, "α": (belt.groove, "angle")}
@@ -321,7 +321,7 @@ class WedgeForces(Result):
             "lowering [N]": np.array([each.push(-1) for each in wedges]),
         }
 
-    def blocks(self, say: Translate) -> list[Block]:
+    def blocks(self, translate: Translate) -> list[Block]:
         rows = [
             Row("raising", self.raising, "force"),
             Row("lowering", self.lowering, "force"),
@@ -340,20 +340,20 @@ class WedgeForces(Result):
             )
         ]
 
-    def steps(self, say: Translate) -> list[Step]:
-        step = Step("1", say(_("Force polygons of load and wedge")))
+    def steps(self, translate: Translate) -> list[Step]:
+        step = Step("1", translate(_("Force polygons of load and wedge")))
         step.known |= {"Q": (self.wedge.load, "force"), "α": (self.wedge.angle, "angle")}
         for index, angle in zip(("", "f", "w"), self.wedge.friction_angles, strict=True):
             step.put(f"ρ{index}", f"arctan μ{index}", angle, "angle", of={f"μ{index}": math.tan(angle)})
-        step.say(say(_("Raising: friction acts against the way up.")))
+        step.note(translate(_("Raising: friction acts against the way up.")))
         step.put("R", "Q·cos ρw/cos(α + ρ + ρw)", self.wedge.between(1), "force")
         step.put("P_up", "R·sin(α + ρ + ρf)/cos ρf", self.raising, "force")
-        step.say(say(_("Lowering: all friction angles change their signs.")))
+        step.note(translate(_("Lowering: all friction angles change their signs.")))
         step.put("R", "Q·cos ρw/cos(|α − ρ| − ρw)", self.wedge.between(-1), "force")
         step.put("P_down", "R·sin(α − ρ − ρf)/cos ρf", self.lowering, "force")
         step.put("η", "Q·tan α/P_up", self.efficiency)
-        step.say(
-            say(
+        step.note(
+            translate(
                 _("The wedge locks itself: it must be pulled out.")
                 if self.locks
                 else _("The wedge does not lock: the load drives it out unless it is held.")

@@ -157,7 +157,7 @@ class RotorBalance(Result):
         moment = sum(each.product * arm for each, arm in zip(self.rotor.masses.values(), arms, strict=True))
         return self._rounded(moment, max(map(abs, arms)))
 
-    def blocks(self, say: Translate) -> list[Block]:
+    def blocks(self, translate: Translate) -> list[Block]:
         blocks = []
         for name, unbalance in self.unbalances.items():
             weight = self.counterweights[name]
@@ -182,13 +182,13 @@ class RotorBalance(Result):
             )
         return blocks
 
-    def steps(self, say: Translate) -> list[Step]:
+    def steps(self, translate: Translate) -> list[Step]:
         found = []
         for count, (name, unbalance) in enumerate(self.unbalances.items(), 1):
-            step = Step(str(count), say(_("Plane {name}", name=name)))
+            step = Step(str(count), translate(_("Plane {name}", name=name)))
             if len(self.unbalances) > 1:
-                step.say(
-                    say(
+                step.note(
+                    translate(
                         _(
                             "Every mass is replaced by parts in both planes; z is its place, z0 that of the "
                             "plane, z' that of the other plane:"

@@ -115,11 +115,11 @@ class StructureForces(Result):
         joints = self.forces.mechanism.joints
         return [(name, link) for name, joint in joints.items() for link in joint.joined if link != "frame"]
 
-    def blocks(self, say: Translate) -> list[Block]:
+    def blocks(self, translate: Translate) -> list[Block]:
         rows = []
         for joint, link in self.pairs():
             x, y = self.reaction(joint, link)
-            label = say(_("{joint} on {link}", joint=joint, link=link))
+            label = translate(_("{joint} on {link}", joint=joint, link=link))
             rows += [
                 Row("reaction", float(x), "force", f"{label} Fx"),
                 Row("reaction", float(y), "force", f"{label} Fy"),
@@ -147,27 +147,29 @@ class StructureForces(Result):
         pin, guide and weld takes part."""
         return structure_balance(self.forces)
 
-    def steps(self, say: Translate) -> list[Step]:
+    def steps(self, translate: Translate) -> list[Step]:
         from linkwright.worked_solutions.solution import worked
 
-        found = list(worked(self.forces, language=language_of(say)).steps)
+        found = list(worked(self.forces, language=language_of(translate)).steps)
         last = max(int(step.number.partition(".")[0]) for step in found)
-        return [*found, balance_step(self.balance, str(last + 1), say)]
+        return [*found, balance_step(self.balance, str(last + 1), translate)]
 
 
-def balance_step(balance: Balance | None, number: str, say: Translate) -> Step:
+def balance_step(balance: Balance | None, number: str, translate: Translate) -> Step:
     """The equations of equilibrium as a step: A·X = B, and X."""
-    step = Step(number, say(_("Equilibrium in matrix form")))
+    step = Step(number, translate(_("Equilibrium in matrix form")))
     if balance is None:
-        step.say(say(_("The matrix form is not shown for joints other than pins, guides and welds.")))
+        step.note(translate(_("The matrix form is not shown for joints other than pins, guides and welds.")))
         return step
     links = dict.fromkeys(row.rpartition(" ")[0] for row in balance.rows)
-    step.say(
-        say(_("Rows: ΣFx, ΣFy and ΣM about the first joint of every link ({links}); N, m.", links=", ".join(links)))
+    step.note(
+        translate(
+            _("Rows: ΣFx, ΣFy and ΣM about the first joint of every link ({links}); N, m.", links=", ".join(links))
+        )
     )
     acting = ", ".join(f"{name} → {link}" for name, link in zip(balance.names, balance.on, strict=True))
-    step.say(
-        say(
+    step.note(
+        translate(
             _(
                 "Unknowns X with the links on which they act: {names}; on the joint's other link "
                 "they act the opposite way.",

@@ -219,25 +219,25 @@ class Statistics(Result):
     def _in_unit(self, name: str, value: float) -> str:
         return f"{value / self.scale(name).factor:.6g}"
 
-    def blocks(self, say: Translate) -> list[Block]:
-        found = [self._described(name, say) for name in self.problem.samples]
+    def blocks(self, translate: Translate) -> list[Block]:
+        found = [self._described(name, translate) for name in self.problem.samples]
         found += [
             Block(
                 f"fit.{name}",
                 _("Distributions of {name}, best first (Akaike's number)", name=name),
-                self._fit_rows(name, say),
+                self._fit_rows(name, translate),
             )
             for name in self.problem.samples
             if self.problem.fit
         ]
         if self.tests:
-            rows = [row for name in self.tests for row in self._test_rows(name, say)]
+            rows = [row for name in self.tests for row in self._test_rows(name, translate)]
             found.append(Block("tests", _("Tests"), rows))
-        found += [self._regressed(name, say) for name in self.regressions]
-        found += [self._capable(name, say) for name in self.capabilities]
+        found += [self._regressed(name, translate) for name in self.regressions]
+        found += [self._capable(name, translate) for name in self.capabilities]
         return found
 
-    def _described(self, name: str, say: Translate) -> Block:
+    def _described(self, name: str, translate: Translate) -> Block:
         d, scale = self.descriptions[name], self.scale(name)
         rows = [Row("count", float(d.count)), Row("mean", d.mean, scale=scale)]
         if d.count > 1:
@@ -245,7 +245,7 @@ class Statistics(Result):
             level = f"{100 * self.problem.confidence:g} %"
             for key, interval in (("mean", mean_interval), ("deviation", deviation_interval)):
                 low, high = interval(self.problem.values(name), self.problem.confidence)
-                label = say(INTERVALS[key].format(level=level))
+                label = translate(INTERVALS[key].format(level=level))
                 rows.append(Row(f"{key}_interval", low, label=label, scale=scale, end=high))
         rows += [Row("least", d.minimum, scale=scale), Row("median", d.quartiles[1], scale=scale)]
         rows.append(Row("quartiles", d.quartiles[0], scale=scale, end=d.quartiles[2]))
@@ -282,18 +282,18 @@ class Statistics(Result):
         unit = self.scale(name).unit
         return f"{self._in_unit(name, ends[0])} … {self._in_unit(name, ends[1])} {unit}".rstrip()
 
-    def _fit_rows(self, name: str, say: Translate) -> list[Row]:
+    def _fit_rows(self, name: str, translate: Translate) -> list[Row]:
         rows = []
         for fit in self.fits[name]:
             factor = self.scale(name).factor
             note = ", ".join(f"{k} = {number(_in_units(k, v, factor))}" for k, v in fit.parameters.items())
-            distance = say(
+            distance = translate(
                 _("largest distance of the distribution functions {distance}", distance=f"{fit.distance:.4f}")
             )
             rows.append(Row(fit.name, fit.akaike, "", DISTRIBUTION_NAMES[fit.name], f"{note}; {distance}"))
         return rows
 
-    def _test_rows(self, name: str, say: Translate) -> list[Row]:
+    def _test_rows(self, name: str, translate: Translate) -> list[Row]:
         outcome, test = self.tests[name], self.problem.tests[name]
         freedom = f"({', '.join(number(f) for f in outcome.freedom)})" if outcome.freedom else ""
         rejected = outcome.p < 1.0 - self.problem.confidence
@@ -306,7 +306,7 @@ class Statistics(Result):
             Row(f"{name}.p", outcome.p, "", f"  {name}: p", verdict, text="" if outcome.p >= TINY else f"< {TINY:g}"),
         ]
 
-    def _regressed(self, name: str, say: Translate) -> Block:
+    def _regressed(self, name: str, translate: Translate) -> Block:
         r, rows = self.regressions[name], []
         scales = self._scales(self.problem.regressions[name])
         for i, (term, scale) in enumerate(zip(r.terms, scales, strict=True)):
@@ -318,7 +318,7 @@ class Statistics(Result):
         y = self.problem.regressions[name].y
         return Block(f"regression.{name}", _("Regression {name} of {y}", name=name, y=y), rows)
 
-    def _capable(self, name: str, say: Translate) -> Block:
+    def _capable(self, name: str, translate: Translate) -> Block:
         c, rows = self.capabilities[name], []
         mark = "C" if c.within else "P"
         if c.cp is not None and c.cp_interval is not None:
@@ -333,10 +333,10 @@ class Statistics(Result):
         )
         return Block(f"capability.{name}", _("Capability of {name}", name=name), rows, (remark,))
 
-    def steps(self, say: Translate) -> list[Step]:
+    def steps(self, translate: Translate) -> list[Step]:
         found: list[Step] = []
         for name, d in self.descriptions.items():
-            step = Step(str(len(found) + 1), say(_("Sample {name}", name=name)))
+            step = Step(str(len(found) + 1), translate(_("Sample {name}", name=name)))
             step.law(f"n = {d.count}")
             step.law(f"x̄ = Σ x/n = {self._measured(name, d.mean)}")
             if d.count > 1:
@@ -345,14 +345,15 @@ class Statistics(Result):
                 step.law(f"x̄ ± t·s/√(n) = {measured(self._interval(name, ends))}")
             found.append(step)
         for name, outcome in self.tests.items():
-            step = Step(str(len(found) + 1), f"{name}: {say(HYPOTHESES[self.problem.tests[name].kind])}")
+            step = Step(str(len(found) + 1), f"{name}: {translate(HYPOTHESES[self.problem.tests[name].kind])}")
             step.put(outcome.symbol, outcome.formula, outcome.statistic)
             step.law(f"p {_probability(outcome.p)}")
-            step.say(in_language(self._test_rows(name, say)[1].note, language_of(say)))
+            step.note(in_language(self._test_rows(name, translate)[1].note, language_of(translate)))
             found.append(step)
         for name, r in self.regressions.items():
             step = Step(
-                str(len(found) + 1), say(_("Regression {name} of {y}", name=name, y=self.problem.regressions[name].y))
+                str(len(found) + 1),
+                translate(_("Regression {name} of {y}", name=name, y=self.problem.regressions[name].y)),
             )
             step.law("b = (Fᵀ·F)⁻¹·Fᵀ·y; s² = Σ e²/(n − p)")
             scales = self._scales(self.problem.regressions[name])
@@ -363,7 +364,7 @@ class Statistics(Result):
             step.put("R²", "1 − Σ e²/Σ (y − ȳ)²", r.determination)
             found.append(step)
         for name, c in self.capabilities.items():
-            step = Step(str(len(found) + 1), say(_("Capability of {name}", name=name)))
+            step = Step(str(len(found) + 1), translate(_("Capability of {name}", name=name)))
             mark = "C" if c.within else "P"
             if c.cp is not None:
                 step.put(f"{mark}p", "(U − L)/(6·σ)", c.cp, of=self._limits_of(name), digits=8)

@@ -220,7 +220,7 @@ class Transport(Result):
             "height [m]": m.height,
         }
 
-    def blocks(self, say: Translate) -> list[Block]:
+    def blocks(self, translate: Translate) -> list[Block]:
         rows = [
             Row("speed", self.speed, "velocity", _("mean speed of transport")),
             Row("displacement", self.motion.displacement, "length"),
@@ -235,7 +235,7 @@ class Transport(Result):
                 f"{i}_{phase.mode}",
                 self._input(phase.start),
                 kind,
-                f"{i} {say(MODE_NAMES[phase.mode])}",
+                f"{i} {translate(MODE_NAMES[phase.mode])}",
                 end=self._input(phase.end),
             )
             for i, phase in enumerate(self.motion.phases, 1)
@@ -263,30 +263,32 @@ class Transport(Result):
         last = motion.input[-1] + (motion.input[-1] - motion.input[-2])
         return float(np.interp(time, ends, np.append(motion.input, last)))
 
-    def steps(self, say: Translate) -> list[Step]:
+    def steps(self, translate: Translate) -> list[Step]:
         trough, law, found = (
             self.conveyor.trough,
-            Step("1", say(_("Forces on the load, per mass"))),
-            Step("2", say(_("Phases of one cycle"))),
+            Step("1", translate(_("Forces on the load, per mass"))),
+            Step("2", translate(_("Phases of one cycle"))),
         )
-        law.say(say(_("Per mass of the load: normal force n, friction f that rest would need.")))
+        law.note(translate(_("Per mass of the load: normal force n, friction f that rest would need.")))
         law.law("n = a_n − g_n; f = a_t − g_t")
-        law.say(f"{say(MODE_NAMES['rest'])}:")
+        law.note(f"{translate(MODE_NAMES['rest'])}:")
         law.law("|f| ≤ μ·n")
-        law.say(say(_("sliding")) + ":")
+        law.note(translate(_("sliding")) + ":")
         law.law("s̈ = −f ∓ μ'·n")
         law.put("g_n", "", trough.gravity[1], "acceleration")
         law.put("Γ", "max(−a_n)/|g_n|", self.throw_number)
         if math.isfinite(self.needed_friction):
             law.put("μ_min", "max(|f|/n)", self.needed_friction)
         for phase in self.motion.phases[:24]:
-            word = say(MODE_NAMES[phase.mode])
+            word = translate(MODE_NAMES[phase.mode])
             ends = " … ".join(shown(self._input(time), self._input_kind, 5) for time in (phase.start, phase.end))
-            found.say(f"{ends}: {word}")
+            found.note(f"{ends}: {word}")
         found.put("Δs", "", self.motion.displacement, "length")
         found.put("v", "Δs/T", self.speed, "velocity", of={"T": (trough.period, "time")})
         if any(phase.mode == FLIGHT for phase in self.motion.phases):
-            found.say(
-                say(_("The load lands without bouncing; the blow of landing rubs as a force of its size would."))
+            found.note(
+                translate(
+                    _("The load lands without bouncing; the blow of landing rubs as a force of its size would.")
+                )
             )
         return [law, found]

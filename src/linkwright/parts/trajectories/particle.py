@@ -300,7 +300,7 @@ class Flight(Result):
         x, y, u, v = self.state(time)
         return {"time [s]": time, "x [m]": x, "y [m]": y, "vx [m/s]": u, "vy [m/s]": v}
 
-    def blocks(self, say: Translate) -> list[Block]:
+    def blocks(self, translate: Translate) -> list[Block]:
         speed, angle = self.impact
         rows = [
             Row("speed", self.particle.speed or 0.0, "velocity"),
@@ -313,8 +313,8 @@ class Flight(Result):
         ]
         return [Block("flight", "", rows)]
 
-    def steps(self, say: Translate) -> list[Step]:
-        p, step = self.particle, Step("1", say(_("Equations of motion and their solution")))
+    def steps(self, translate: Translate) -> list[Step]:
+        p, step = self.particle, Step("1", translate(_("Equations of motion and their solution")))
         if p.quadratic:
             step.law("m·v̇_x = −k·v·v_x; m·v̇_y = −m·g − k·v·v_y; v = √(v_x² + v_y²)")
             of = {"m": (p.mass, "mass"), "g": (p.gravity, "acceleration"), "k": (p.quadratic, "linear_density")}

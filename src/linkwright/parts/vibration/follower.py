@@ -226,7 +226,7 @@ class FollowerVibration(Result):
         time, cam, follower = self.curves
         return {"time [s]": time, "cam [m]": cam, "follower [m]": follower, "difference [m]": follower - cam}
 
-    def blocks(self, say: Translate) -> list[Block]:
+    def blocks(self, translate: Translate) -> list[Block]:
         rows = [
             Row("own_frequency", self.frequency / (2 * math.pi), "frequency"),
             Row("ratio", self.ratio),
@@ -237,9 +237,9 @@ class FollowerVibration(Result):
         ]
         return [Block("follower", "", rows)]
 
-    def steps(self, say: Translate) -> list[Step]:
-        step = Step("1", say(_("A mass driven through a spring")))
-        step.say(say(_("Rise s(u) = h·f(u) with u = t/T; law f: {law}.", law=self.problem.law_name)))
+    def steps(self, translate: Translate) -> list[Step]:
+        step = Step("1", translate(_("A mass driven through a spring")))
+        step.note(translate(_("Rise s(u) = h·f(u) with u = t/T; law f: {law}.", law=self.problem.law_name)))
         step.law("z = x − s; z̈ + 2·ζ·ω·ż + ω²·z = −s̈")
         of = {"k": (self.problem.stiffness, "stiffness"), "m": (self.problem.mass, "mass")}
         step.put("ω", "√(k/m)", self.frequency, "angular_velocity", of=of)
@@ -247,8 +247,8 @@ class FollowerVibration(Result):
         step.put("A", "|∫ s̈·e^(i·ω·t) dt|/ω", float(self.residual()[0]), "length")
         quiet = self._quiet()
         if quiet:
-            step.say(
-                say(
+            step.note(
+                translate(
                     _(
                         "hardly any vibration is left at n = {ratios}",
                         ratios=", ".join(number(n, digits=4) for n in quiet),

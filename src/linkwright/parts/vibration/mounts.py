@@ -336,7 +336,7 @@ class Shaken(Result):
             found |= {title: each[:, i] for (title, _unused), each in zip(TITLES[axis], curves, strict=True)}
         return found
 
-    def _own_rows(self, say: Translate) -> list[Row]:
+    def _own_rows(self, translate: Translate) -> list[Row]:
         """Natural frequencies; of a machine that rocks with what moves most, over the radius of gyration."""
         hertz = self.frequencies / (2 * math.pi)
         if not self.problem.mounts:
@@ -356,8 +356,8 @@ class Shaken(Result):
             for k in range(len(hertz))
         ]
 
-    def blocks(self, say: Translate) -> list[Block]:
-        rows = self._own_rows(say)
+    def blocks(self, translate: Translate) -> list[Block]:
+        rows = self._own_rows(translate)
         curves = {"shaking": self.harmonics, "machine": self.moved, "ground": self.passed}
         for i, axis in enumerate(self.axes):
             for (key, amplitudes), (_unused, dimension) in zip(curves.items(), TITLES[axis], strict=True):
@@ -381,10 +381,10 @@ class Shaken(Result):
         size = np.abs(self.harmonics[1:, :2]).max(axis=1)
         return [k + 1 for k in range(len(size)) if size[k] > SMALL * size.max()][:12]
 
-    def steps(self, say: Translate) -> list[Step]:
+    def steps(self, translate: Translate) -> list[Step]:
         own, each = (
-            Step("1", say(_("Natural frequencies and speeds to avoid"))),
-            Step("2", say(_("Harmonics: shaking force → motion, force on the ground"))),
+            Step("1", translate(_("Natural frequencies and speeds to avoid"))),
+            Step("2", translate(_("Harmonics: shaking force → motion, force on the ground"))),
         )
         own.put("ω", "2·π/T", self.speed, "angular_velocity", of={"T": (2 * math.pi / self.speed, "time")})
         if self.problem.mounts:
@@ -399,8 +399,8 @@ class Shaken(Result):
             speeds = ", ".join(
                 number(60 * float(self.frequencies[i]) / (2 * math.pi) / k, digits=4) for k in self.listed()[:4]
             )
-            own.say(
-                say(
+            own.note(
+                translate(
                     _(
                         "speeds at which a harmonic meets the natural frequency along {axis}: {speeds} "
                         "cycles per minute",

@@ -352,14 +352,14 @@ class Vibration(Result):
             found[f"{name} phase [rad]"] = np.angle(moved[:, i])
         return found
 
-    def blocks(self, say: Translate) -> list[Block]:
+    def blocks(self, translate: Translate) -> list[Block]:
         rows = []
         for i, own in enumerate(self.frequencies):
             mode = ", ".join(
                 f"{n} {number(float(s), digits=5)}"
                 for n, s in zip(self.system.masses, self.shapes[:, i], strict=True)
             )
-            label = say(_("f{index}", index=i + 1))
+            label = translate(_("f{index}", index=i + 1))
             rows.append(
                 Row(f"frequency_{i + 1}", own / (2 * math.pi), "frequency", label, _("mode: {mode}", mode=mode))
             )
@@ -368,7 +368,11 @@ class Vibration(Result):
                 rows.append(Row(f"damping_{i + 1}", float(self.damping_ratios[i]), "", f"  ζ{i + 1}"))
         loose = int((self.frequencies == 0).sum())
         remarks = (
-            (say(_("{count} of the modes are free motions: nothing ties the system to the ground.", count=loose)),)
+            (
+                translate(
+                    _("{count} of the modes are free motions: nothing ties the system to the ground.", count=loose)
+                ),
+            )
             if loose
             else ()
         )
@@ -381,12 +385,12 @@ class Vibration(Result):
                 ]
                 found.append(Block("absorber", _("Best damped absorber (Den Hartog)"), tied))
         if self.harmonic:
-            found.append(self._forced(say))
+            found.append(self._forced(translate))
         if self.in_time:
-            found.append(self._timed(say))
+            found.append(self._timed(translate))
         return found
 
-    def _forced(self, say: Translate) -> Block:
+    def _forced(self, translate: Translate) -> Block:
         excitation = self.system.excitation
         assert excitation is not None and excitation.frequency is not None
         at = np.array([excitation.frequency])
@@ -401,7 +405,7 @@ class Vibration(Result):
             "forced", _("Forced vibration at {hertz} Hz", hertz=number(excitation.frequency / (2 * math.pi))), rows
         )
 
-    def _timed(self, say: Translate) -> Block:
+    def _timed(self, translate: Translate) -> Block:
         time, moved, rate = self._response
         length = "angle" if self.system.turning else "length"
         rows = []
@@ -411,17 +415,17 @@ class Vibration(Result):
             rows.append(Row(f"{name}.largest", value, length, _("largest displacement of {name}", name=name), note))
         return Block("response", _("Response in time"), rows)
 
-    def steps(self, say: Translate) -> list[Step]:
+    def steps(self, translate: Translate) -> list[Step]:
         matrices, modes = (
-            Step("1", say(_("Equations of motion M·ẍ + C·ẋ + K·x = F"))),
-            Step("2", say(_("det(K − ω²M) = 0"))),
+            Step("1", translate(_("Equations of motion M·ẍ + C·ẋ + K·x = F"))),
+            Step("2", translate(_("det(K − ω²M) = 0"))),
         )
-        matrices.say(say(_("in the order {names}, SI units:", names=", ".join(self.system.masses))))
+        matrices.note(translate(_("in the order {names}, SI units:", names=", ".join(self.system.masses))))
         for symbol, matrix in (("M", self.linear.mass), ("C", self.linear.damping), ("K", self.linear.stiffness)):
             if symbol != "C" or matrix.any():
                 matrices.items.append(named_matrix(symbol, matrix))
         one = len(self.frequencies) == 1
-        modes.say(say(_("roots of the characteristic equation, and poles λ of the damped system")))
+        modes.note(translate(_("roots of the characteristic equation, and poles λ of the damped system")))
         modes.law("det(K − ω²·M) = 0")
         if one:
             words = TURNING if self.system.turning else STRAIGHT
@@ -437,17 +441,17 @@ class Vibration(Result):
                 modes.items.append(named_matrix(f"φ{i + 1}", self.shapes[:, i : i + 1]))
         found = [matrices, modes]
         if self.harmonic:
-            forced = Step("3", say(_("Forced vibration")))
+            forced = Step("3", translate(_("Forced vibration")))
             forced.law("(K − ω²·M + i·ω·C)·X = F")
-            for row in self._forced(say).rows:
-                label = in_language(row.label or _("transmissibility"), language_of(say))
+            for row in self._forced(translate).rows:
+                label = in_language(row.label or _("transmissibility"), language_of(translate))
                 forced.put(label, "", float(row.value), row.dimension)
             found.append(forced)
         if self.in_time:
-            timed = Step(str(len(found) + 1), say(_("Response in time")))
+            timed = Step(str(len(found) + 1), translate(_("Response in time")))
             timed.law("M·ẍ + C·ẋ + K·x = F(t)")
-            for row in self._timed(say).rows:
-                label = in_language(row.label, language_of(say))
+            for row in self._timed(translate).rows:
+                label = in_language(row.label, language_of(translate))
                 timed.put(label, "", float(row.value), row.dimension)
             found.append(timed)
         return found

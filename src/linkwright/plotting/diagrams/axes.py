@@ -80,15 +80,15 @@ class InputAxis:
         """Whether the input falls as time goes on, so that the axis runs from right to left."""
         return bool(self.values[-1] < self.values[0])
 
-    def label(self, say: Translate) -> str:
+    def label(self, translate: Translate) -> str:
         """Its name with the unit, ``input φ (°)``."""
         if self.name:
             return self.unit.label(self.name)
-        word = say(_("time")) if self.dimension == "time" else say(_("input"))
+        word = translate(_("time")) if self.dimension == "time" else translate(_("input"))
         return self.unit.label(f"{word} {SYMBOLS[self.dimension]}")
 
 
-def label_input(axes: Axes, axis: InputAxis, say: Translate) -> None:
+def label_input(axes: Axes, axis: InputAxis, translate: Translate) -> None:
     """Label, range and ticks of the axis below: the input in the order of the motion."""
     shown = axis.values * axis.unit.factor
     good = shown[np.isfinite(shown)]
@@ -99,7 +99,7 @@ def label_input(axes: Axes, axis: InputAxis, say: Translate) -> None:
     if axis.log:
         axes.set_xscale("log")
         plain_ticks(axes.xaxis, axes.get_xlim())
-    axes.set_xlabel(axis.label(say))
+    axes.set_xlabel(axis.label(translate))
 
 
 def _angle_ticks(axes: Axes, span: float) -> None:

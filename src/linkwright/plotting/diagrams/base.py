@@ -25,7 +25,7 @@ from linkwright.plotting.diagrams.axes import Legend, wrapped
 from linkwright.plotting.diagrams.source import PlotInput, Result
 from linkwright.registry import Registry, listed
 from linkwright.units import parse
-from linkwright.words import Message, Translate, _, say
+from linkwright.words import Message, Translate, _, translate
 from linkwright.words.characters import printable
 from linkwright.words.message import in_language
 
@@ -59,15 +59,15 @@ class Request:
     language: str = "en"
 
     @property
-    def say(self) -> Translate:
+    def translate(self) -> Translate:
         """Messages in the language that is asked for."""
-        return partial(say, language=self.language)
+        return partial(translate, language=self.language)
 
     def titled(self, name: str, subject: str = "") -> str:
         """The title of a diagram, ``Crank-rocker: joint forces``: its subject is its kind unless given."""
-        name_shown = subject or self.say(title_of(self.kind))
+        name_shown = subject or self.translate(title_of(self.kind))
         return (
-            self.say(_("{name}: {subject}", name=in_language(name, self.language), subject=name_shown))
+            self.translate(_("{name}: {subject}", name=in_language(name, self.language), subject=name_shown))
             if name
             else name_shown
         )

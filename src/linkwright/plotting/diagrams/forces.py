@@ -46,9 +46,9 @@ class Reactions(OverInput):
 
     def subject(self, sources: Sequence[PlotInput], request: Request) -> str:
         if request.joint is None and request.on is None:
-            return request.say(self.title)
+            return request.translate(self.title)
         joint, link = joint_and_link(sources[0].forces, request.joint, request.on)
-        return request.say(_("force of joint {joint} on {link}", joint=joint, link=link))
+        return request.translate(_("force of joint {joint} on {link}", joint=joint, link=link))
 
     def panels(self, source: PlotInput, request: Request) -> list[Panel]:
         require_forces(source.forces)
@@ -82,11 +82,11 @@ def _of_all(source: PlotInput, request: Request) -> Panel:
     for label, values in sizes.items():
         exact = source.extremes(signals[label], "forces")
         curves.append(Curve(label, values, "max" if label == marked else "", extremes=exact))
-    return Panel(request.say(_("joint force")) + " F", "force", tuple(curves))
+    return Panel(request.translate(_("joint force")) + " F", "force", tuple(curves))
 
 
 def _of_one(source: PlotInput, request: Request) -> list[Panel]:
-    say = request.say
+    translate = request.translate
     joint, link = joint_and_link(source.forces, request.joint, request.on)
     axes = request.axes or "frame"
     force = source.closed(source.forces.reaction(joint, on=link, axes=axes))
@@ -100,8 +100,8 @@ def _of_one(source: PlotInput, request: Request) -> list[Panel]:
     ]
     exact_size = source.extremes(magnitude(joint, link), "forces")
     total = Curve("", np.hypot(force[:, 0], force[:, 1]), "max", extremes=exact_size)
-    title = say(_("components")) if axes == "frame" else say(_("components in {link}", link=axes))
-    return [Panel(say(_("joint force")) + " F", "force", (total,)), Panel(title, "force", tuple(parts))]
+    title = translate(_("components")) if axes == "frame" else translate(_("components in {link}", link=axes))
+    return [Panel(translate(_("joint force")) + " F", "force", (total,)), Panel(title, "force", tuple(parts))]
 
 
 @DIAGRAMS.register("shaking")
@@ -112,7 +112,7 @@ class Shaking(OverInput):
     options = ("static",)
 
     def panels(self, source: PlotInput, request: Request) -> list[Panel]:
-        say, forces = request.say, source.forces
+        translate, forces = request.translate, source.forces
         require_forces(forces)
         force = source.closed(forces.shaking_force)
         size = source.extremes(lambda f: np.hypot(*f.shaking_force.T), "forces")
@@ -124,8 +124,8 @@ class Shaking(OverInput):
         turning = source.extremes(lambda f: f.shaking_moment, "forces")
         moment = Curve("", source.closed(forces.shaking_moment), "both", extremes=turning)
         return [
-            Panel(say(_("shaking force")) + " F", "force", curves),
-            Panel(say(_("shaking moment")) + " M", "torque", (moment,)),
+            Panel(translate(_("shaking force")) + " F", "force", curves),
+            Panel(translate(_("shaking moment")) + " M", "torque", (moment,)),
         ]
 
 
@@ -152,7 +152,7 @@ class Hodograph(Kind):
             draw_hodograph(place, sources, (joint, link, view), request, legend)
             for place, view in zip(figure.subplots(1, len(views), squeeze=False)[0], views, strict=True)
         ]
-        subject = request.say(_("hodograph of the force of joint {joint} on {link}", joint=joint, link=link))
+        subject = request.translate(_("hodograph of the force of joint {joint} on {link}", joint=joint, link=link))
         framed(figure, request.titled(sources[0].label if len(sources) == 1 else "", subject), request, legend)
         write_names(figure, names)
         return figure
@@ -170,7 +170,7 @@ def draw_hodograph(
     """One hodograph, and what is to be named in it: ``what`` is the joint, the link on which it acts, and the link in
     whose axes it is drawn; ``largest``: whether the largest force is an arrow that the legend names."""
     view, noted = what[2], Names(axes)
-    say = request.say
+    translate = request.translate
     curves = [_hodograph(source, what) for source in sources]
     unit = unit_of("force", curves)
     for number, (source, curve) in enumerate(zip(sources, curves, strict=True)):
@@ -184,7 +184,9 @@ def draw_hodograph(
             if largest:
                 _largest(axes, source, what, curve, unit, legend, request)
     axes.set_title(
-        say(_("in the axes of the frame")) if view == "frame" else say(_("in the axes of {link}", link=view)),
+        translate(_("in the axes of the frame"))
+        if view == "frame"
+        else translate(_("in the axes of {link}", link=view)),
         color=INK,
     )
     make_force_plane(axes, unit, "xy" if view == "frame" else "ξη")
@@ -234,7 +236,7 @@ def _largest(
         },
         zorder=3,
     )
-    legend.line(request.say(_("largest force {value}", value=unit.text(length))), FAINT, "-")
+    legend.line(request.translate(_("largest force {value}", value=unit.text(length))), FAINT, "-")
 
 
 #: Panels in a row, and inches of one.
@@ -260,7 +262,7 @@ class Hodographs(Kind):
         for place, (joint, link) in zip(places, pairs, strict=False):
             view = (joint, link, "frame")
             names.append(draw_hodograph(place, sources, view, request, legend, largest=False))
-            place.set_title(request.say(_("{joint}, force on {link}", joint=joint, link=link)), color=INK)
+            place.set_title(request.translate(_("{joint}, force on {link}", joint=joint, link=link)), color=INK)
         for place in places[len(pairs) :]:
             place.set_axis_off()
         framed(figure, request.titled(sources[0].label if len(sources) == 1 else ""), request, legend)
@@ -279,7 +281,7 @@ class Torque(OverInput):
         return main_output(source.motion)
 
     def panels(self, source: PlotInput, request: Request) -> list[Panel]:
-        motion, forces, say = source.motion, source.forces, request.say
+        motion, forces, translate = source.motion, source.forces, request.translate
         if not motion.mechanism.drivers:
             raise RequestError(
                 _(
@@ -295,7 +297,7 @@ class Torque(OverInput):
             effort = forces.driver_effort(name)
             exact = source.extremes(partial(Forces.driver_effort, name=name), "forces")
             dimension = "torque" if turning else "force"
-            word = say(_("input torque") if turning else _("driving force"))
+            word = translate(_("input torque") if turning else _("driving force"))
             title = f"{word} {'T' if turning else 'F'}{f' {name}' if several else ''}"
             curve = Curve("", source.closed(effort), "both", extremes=exact)
             mean = Analysis.of(forces).mean_of(partial(Forces.driver_effort, name=name))
@@ -317,7 +319,7 @@ class Power(OverInput):
         power = source.forces.power
         curve = Curve("", source.closed(power), "both", extremes=source.extremes(_total, "forces"))
         mean = Analysis.of(source.forces).mean_of(_total)
-        return [with_mean(request.say(_("power")) + " P", "power", curve, mean, request)]
+        return [with_mean(request.translate(_("power")) + " P", "power", curve, mean, request)]
 
 
 def _total(forces: Forces) -> Floats:
@@ -339,18 +341,20 @@ class Energy(OverInput):
         return InputAxis("angle", reduced.start + reduced.direction * found.angle)
 
     def panels(self, source: PlotInput, request: Request) -> list[Panel]:
-        say = request.say
+        translate = request.translate
         reduced, found = _reduced(source)
         place = reduced.start + reduced.direction * np.append(reduced.angle, reduced.period)
         steady = reduced.torque + 0.5 * reduced.slope * reduced.speed**2
         torque = reduced.direction * np.append(steady, steady[0])
         mean = reduced.direction * reduced.load.mean
-        title = say(_("input torque")) + " T"
+        title = translate(_("input torque")) + " T"
         curve = Curve("", torque, "both", x=place, extremes=_of_torque(reduced))
-        change = say(_("energy fluctuation ΔE = {value}", value=unit_of("energy", [found.energy]).text(found.value)))
+        change = translate(
+            _("energy fluctuation ΔE = {value}", value=unit_of("energy", [found.energy]).text(found.value))
+        )
         return [
             with_mean(title, "torque", curve, mean, request, fill=True),
-            Panel(say(_("energy")) + " E", "energy", (Curve(change, found.energy, "both"),)),
+            Panel(translate(_("energy")) + " E", "energy", (Curve(change, found.energy, "both"),)),
         ]
 
 
@@ -384,16 +388,16 @@ class Speed(OverInput):
 
     def panels(self, source: PlotInput, request: Request) -> list[Panel]:
         running = source.once(f"running {request.fluctuation}", lambda: source.running(request.fluctuation))
-        say, mean = request.say, running.equivalent.speed
-        title = say(_("speed of the input")) + " ω"
-        level = Level(say(_("mean {value}", value=f"{significant(mean)} rad/s")), mean)
+        translate, mean = request.translate, running.equivalent.speed
+        title = translate(_("speed of the input")) + " ω"
+        level = Level(translate(_("mean {value}", value=f"{significant(mean)} rad/s")), mean)
         first = _speed_curve(
-            running, running.exact_speed, running.exact_flywheel, say(_("with flywheel")), COLOURS[0]
+            running, running.exact_speed, running.exact_flywheel, translate(_("with flywheel")), COLOURS[0]
         )
         found = [Panel(title, "angular_velocity", (first,), (level,))]
         alone = _alone(running) if running.exact_flywheel > 0 else None
         if alone is not None:
-            bare = _speed_curve(running, alone, 0.0, say(_("without flywheel")), COLOURS[4])
+            bare = _speed_curve(running, alone, 0.0, translate(_("without flywheel")), COLOURS[4])
             found.append(Panel(title, "angular_velocity", (bare,), (level,)))
         return found
 

@@ -48,11 +48,11 @@ class Sva(OverInput):
         return first if first.kind in PLACES and not more else None
 
     def subject(self, sources: Sequence[PlotInput], request: Request) -> str:
-        return request.say(_("motion of {output}", output=", ".join(map(str, _asked(sources[0], request)))))
+        return request.translate(_("motion of {output}", output=", ".join(map(str, _asked(sources[0], request)))))
 
     def panels(self, source: PlotInput, request: Request) -> list[Panel]:
         asked = _asked(source, request)
-        parts = [_panels(source, each, request.say) for each in asked]
+        parts = [_panels(source, each, request.translate) for each in asked]
         if len(asked) == 1:
             return parts[0]
         return _together([(str(each), panels) for each, panels in zip(asked, parts, strict=True)])
@@ -81,20 +81,20 @@ def _together(parts: list[tuple[str, list[Panel]]]) -> list[Panel]:
     return list(found.values())
 
 
-def _panels(source: PlotInput, output: Output, say: Translate) -> list[Panel]:
+def _panels(source: PlotInput, output: Output, translate: Translate) -> list[Panel]:
     if output.kind in NAMED:
         return _of_named(source, output)
     if output.kind not in PLACES:
         return [_of_result(source, output)]
     if output.is_point:
-        return _of_point(source, output.owner, say)
+        return _of_point(source, output.owner, translate)
     named = ANGULAR if output.kind == "angle" else STRAIGHT
     found = []
     for (word, symbol, dimension), each in zip(named, output.course, strict=True):
         shown = source.closed(source.motion.read(each), turns=dimension == "angle")
         read = methodcaller("read", each)
         exact = source.angle_extremes(read, shown) if dimension == "angle" else source.extremes(read)
-        found.append(Panel(f"{say(word)} {symbol}", dimension, (Curve("", shown, "both", extremes=exact),)))
+        found.append(Panel(f"{translate(word)} {symbol}", dimension, (Curve("", shown, "both", extremes=exact),)))
     return found
 
 
@@ -124,7 +124,7 @@ def _of_result(source: PlotInput, output: Output) -> Panel:
     return Panel(output.name, output.dimension, (Curve("", np.where(over, np.nan, values), "both"),))
 
 
-def _of_point(source: PlotInput, key: str, say: Translate) -> list[Panel]:
+def _of_point(source: PlotInput, key: str, translate: Translate) -> list[Panel]:
     point = source.motion.point_of(key)
     found = []
     for word, title, symbol, dimension in (
@@ -137,8 +137,8 @@ def _of_point(source: PlotInput, key: str, say: Translate) -> list[Panel]:
         if word != "position":
             length = np.hypot(shown[:, 0], shown[:, 1])
             exact = source.extremes(partial(_size, key=key, word=word))
-            curves.append(Curve(say(_("magnitude")), length, "max", extremes=exact))
-        found.append(Panel(f"{say(title)} {symbol}", dimension, tuple(curves)))
+            curves.append(Curve(translate(_("magnitude")), length, "max", extremes=exact))
+        found.append(Panel(f"{translate(title)} {symbol}", dimension, tuple(curves)))
     return found
 
 
@@ -155,7 +155,7 @@ class Angles(OverInput):
         return None if request.of else main_output(source.motion)
 
     def panels(self, source: PlotInput, request: Request) -> list[Panel]:
-        motion, say = source.motion, request.say
+        motion, translate = source.motion, request.translate
         links = [known_link(motion.mechanism, name) for name in request.of] or turning_links(motion)
         if not links:
             raise RequestError(
@@ -172,17 +172,17 @@ class Angles(OverInput):
         angle = [values - values[np.isfinite(values)][0] if change else _near_zero(values) for values in shown]
         return [
             Panel(
-                say(_("angle from the start θ − θ₀")) if change else say(_("angle")) + " θ",
+                translate(_("angle from the start θ − θ₀")) if change else translate(_("angle")) + " θ",
                 "angle",
                 _curves(source, links, angle, "angle"),
             ),
             Panel(
-                say(_("angular velocity")) + " ω",
+                translate(_("angular velocity")) + " ω",
                 "angular_velocity",
                 _curves(source, links, omega, "angular_velocity"),
             ),
             Panel(
-                say(_("angular acceleration")) + " α",
+                translate(_("angular acceleration")) + " α",
                 "angular_acceleration",
                 _curves(source, links, alpha, "angular_acceleration"),
             ),

@@ -95,18 +95,18 @@ class MotionPolygons(Kind):
     def _page(
         self, source: PlotInput, motion: Motion, polygon: MotionPolygon, scale: float, request: Request
     ) -> Drawing:
-        say = request.say
-        scale_text = scale_title(say(_("polygon")), self.letter, f"{significant(scale)} {per_mm(self.unit)}")
+        translate = request.translate
+        scale_text = scale_title(translate(_("polygon")), self.letter, f"{significant(scale)} {per_mm(self.unit)}")
         bar = f"{significant(BAR * MILLIMETRE * scale)} {self.unit}"
-        cells = [position_cell(motion, say), Cell(_sketch(polygon, scale, self.prime), (scale_text,), bar)]
+        cells = [position_cell(motion, translate), Cell(_sketch(polygon, scale, self.prime), (scale_text,), bar)]
         roles = {step.role for step in polygon.steps}
-        subject = f"{say(self.title)}, {source.place_text(motion, say)}"
+        subject = f"{translate(self.title)}, {source.place_text(motion, translate)}"
         title = request.titled(source.label, subject)
         return page(
             cells,
             2,
             [
-                key([(say(ROLES[role]), f"lw-{role}") for role in LOOKS if role in roles]),
+                key([(translate(ROLES[role]), f"lw-{role}") for role in LOOKS if role in roles]),
                 *_columns(_table(polygon, self.unit), page_width(cells, 2)),
             ],
             request.heading(title),

@@ -65,8 +65,8 @@ class FreeBodies(Kind):
         forces = source.forces_at(request.at)
         require_forces(forces)
         links = [known_link(forces.mechanism, name) for name in request.of]
-        place = source.place_text(forces.motion, request.say)
-        title = request.titled(source.label, f"{request.say(self.title)}, {place}")
+        place = source.place_text(forces.motion, request.translate)
+        title = request.titled(source.label, f"{request.translate(self.title)}, {place}")
         (svg,) = free_body_pages(
             forces,
             0,
@@ -129,18 +129,20 @@ class ForcePolygon(Kind):
     options = ("of", "at", "static")
 
     def draw(self, sources: Sequence[PlotInput], request: Request) -> Drawing:
-        source, say = sources[0], request.say
+        source, translate = sources[0], request.translate
         forces = source.forces_at(request.at)
         require_forces(forces)
         found = link_forces(forces, 0)
         named = [known_link(forces.mechanism, name) for name in request.of]
         parts = {link: found[link] for link in named if link in found} or worth_drawing(found)
-        cells = [position_cell(forces.motion, say), *(polygon_cell(forces, *each) for each in parts.items())]
+        cells = [position_cell(forces.motion, translate), *(polygon_cell(forces, *each) for each in parts.items())]
         roles = {PLAIN.get(force.role, force.role) for each in parts.values() for force in each}
         wide = page_width(cells[:IN_ROW], IN_ROW)
-        title = request.titled(source.label, f"{say(self.title)}, {source.place_text(forces.motion, say)}")
+        title = request.titled(
+            source.label, f"{translate(self.title)}, {source.place_text(forces.motion, translate)}"
+        )
         numbered = fold(", ".join(numbered_links(link_numbers(forces.mechanism), request.language)), wide, SIZE)
-        below = [key([(say(ROLES[role]), style) for role, style in STYLES.items() if role in roles])]
+        below = [key([(translate(ROLES[role]), style) for role, style in STYLES.items() if role in roles])]
         below += [[((line, "lw-legend"), 0.0)] for line in numbered]
         return page(cells, IN_ROW, below, request.heading(title), title)
 

@@ -64,7 +64,7 @@ def with_mean(
     if np.isnan(mean):
         return Panel(title, dimension, (curve,))
     value = _readable(Panel(title, dimension, (curve,)).unit, dimension, mean, curve.values)
-    level = Level(f"{whose}{request.say(_('mean {value}').format(value=value))}", mean)
+    level = Level(f"{whose}{request.translate(_('mean {value}').format(value=value))}", mean)
     return Panel(title, dimension, (curve,), (level,), fill)
 
 
@@ -89,7 +89,7 @@ class OverInput(Kind):
 
     def subject(self, sources: Sequence[PlotInput], request: Request) -> str:
         """What the title names besides the mechanism."""
-        return request.say(self.title)
+        return request.translate(self.title)
 
     def output(self, source: PlotInput, request: Request) -> Output | None:
         """The output whose limit positions are marked."""
@@ -105,7 +105,7 @@ class OverInput(Kind):
 
         def mark(axes: list[Axes], legend: Legend) -> None:
             if request.marks and len(sources) == 1 and sources[0].has_motion:
-                _draw_marks(axes, sources[0], self.output(sources[0], request), legend, request.say)
+                _draw_marks(axes, sources[0], self.output(sources[0], request), legend, request.translate)
 
         title = request.titled(sources[0].label if len(sources) == 1 else "", self.subject(sources, request))
         return stacked(panels, axis, request, title, mark)
@@ -126,7 +126,7 @@ def stacked(
         draw_panel(one, panel, axis, request, legend)
     if mark is not None:
         mark(axes, legend)
-    label_input(axes[-1], axis, request.say)
+    label_input(axes[-1], axis, request.translate)
     framed(figure, title, request, legend)
     figure.align_ylabels(axes)
     return figure
@@ -228,18 +228,20 @@ def _set_range(axes: Axes, panel: Panel, axis: InputAxis, unit: Unit) -> None:
     axes.set_ylim(-0.02 * high if grounded else low - room, high + room)
 
 
-def _draw_marks(axes: list[Axes], source: PlotInput, output: Output | None, legend: Legend, say: Translate) -> None:
+def _draw_marks(
+    axes: list[Axes], source: PlotInput, output: Output | None, legend: Legend, translate: Translate
+) -> None:
     factor = source.axis.unit.factor
     limits = limit_marks(source, output)
     for phase in phase_marks(source, limits):
         _shade(axes, phase, factor)
-        legend.patch(say(_("{load} acts", load=phase.name)), SHADE)
+        legend.patch(translate(_("{load} acts", load=phase.name)), SHADE)
     for limit in limits:
         for one in axes:
             one.axvline(limit.place * factor, color=FAINT, linewidth=0.9, linestyle=(0, (4, 3)), zorder=1.5)
     if limits:
-        _name_limits(axes[0], limits, source.axis, say)
-        legend.line(say(_("limit position of {output}", output=str(output))), FAINT, (0, (4, 3)))
+        _name_limits(axes[0], limits, source.axis, translate)
+        legend.line(translate(_("limit position of {output}", output=str(output))), FAINT, (0, (4, 3)))
 
 
 def _shade(axes: list[Axes], phase: PhaseMark, factor: float) -> None:
@@ -247,7 +249,7 @@ def _shade(axes: list[Axes], phase: PhaseMark, factor: float) -> None:
         one.axvspan(phase.begin * factor, phase.end * factor, color=SHADE, alpha=0.75, linewidth=0, zorder=0.5)
 
 
-def _name_limits(axes: Axes, limits: list[LimitMark], axis: InputAxis, say: Translate) -> None:
+def _name_limits(axes: Axes, limits: list[LimitMark], axis: InputAxis, translate: Translate) -> None:
     """Inputs of the limit positions above the panel; two that are close stand one over the other."""
     span = abs(axis.values[-1] - axis.values[0]) or 1.0
     ordered = sorted(limits, key=lambda each: each.place)
@@ -255,7 +257,7 @@ def _name_limits(axes: Axes, limits: list[LimitMark], axis: InputAxis, say: Tran
     for limit in ordered:
         row = 1 - row if limit.place - before < 0.14 * span else 0
         before = limit.place
-        text = f"{say(_('max') if limit.kind == 'max' else _('min'))} {axis.unit.text(limit.place)}"
+        text = f"{translate(_('max') if limit.kind == 'max' else _('min'))} {axis.unit.text(limit.place)}"
         axes.annotate(
             text,
             (limit.place * axis.unit.factor, 1.0),

@@ -142,7 +142,7 @@ def scale_title(name: str, letter: str, scale: str) -> Runs:
     return joined(f"{name}: " if name else "", indexed("μ", letter), f" = {scale}")
 
 
-def position_cell(motion: Motion, say: Translate) -> Cell:
+def position_cell(motion: Motion, translate: Translate) -> Cell:
     """The machine at a motion's first position, with the names of its points."""
     clouds = [motion.point_of(key).position[:1] for key in motion.point_names()]
     clouds.append(np.array(list(motion.mechanism.frame.points.values())).reshape(-1, 2))
@@ -157,7 +157,7 @@ def position_cell(motion: Motion, say: Translate) -> Cell:
         scale = round_up(1.05 * scale)
     sketch.labels += point_labels(scene.machine, 0)
     sketch.write_names()
-    title = scale_title(say(_("position")), "l", f"{significant(scale * 1e3)} mm/mm")
+    title = scale_title(translate(_("position")), "l", f"{significant(scale * 1e3)} mm/mm")
     return Cell(sketch, (title,), f"{significant(scale * BAR * MILLIMETRE * 1e3)} mm")
 
 

@@ -129,11 +129,11 @@ class PlotInput:
         static = self._static if self._forces is None else self._forces.static
         return solve_forces(self.at(place), static=static)
 
-    def place_text(self, motion: Motion, say: Translate) -> str:
+    def place_text(self, motion: Motion, translate: Translate) -> str:
         """Where the one position of a motion is: ``φ = 30°``."""
         dimension = self.input_dimension
         if not self.mechanism.drivers:
-            return say(_("at rest"))
+            return translate(_("at rest"))
         value = float(motion.time[0] if dimension == "time" else motion.input[0])
         return f"{SYMBOLS[dimension]}\u00a0=\u00a0{unit_of(dimension).text(value, 6)}"
 

@@ -201,7 +201,9 @@ class MachineSketch(Sketch):
             below.numbers(mechanism, language)
         if missing := unmarked(self.scene.machine, self.index):
             self.notes.append(
-                _("not drawn, as they name neither a point nor a link: {loads}", loads=tuple(missing)).say(language)
+                _("not drawn, as they name neither a point nor a link: {loads}", loads=tuple(missing)).translate(
+                    language
+                )
             )
         for each in arrows:
             if each.empty([self.shown]):
@@ -406,7 +408,7 @@ class Legend(Sketch):
     def numbers(self, mechanism: Mechanism, language: str) -> None:
         """What the indices of joint forces mean."""
         links = numbered_links(link_numbers(mechanism), language)
-        self.sentence(_("F₁₂: force of link 1 on link 2; {links}", links=tuple(links)).say(language))
+        self.sentence(_("F₁₂: force of link 1 on link 2; {links}", links=tuple(links)).translate(language))
         if any(len(joint.joined) > 2 for joint in mechanism.joints.values()):
             self.sentence(_("F with a pin's name: force of the pin on the link").translate(language))
 

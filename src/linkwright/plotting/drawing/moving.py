@@ -164,7 +164,7 @@ def panel(
 
 def _caption(output: Output, values: Floats, ends: tuple[float, float], language: str, *, alone: bool) -> str:
     """The quantity with its unit, and its ends."""
-    quantity = output.sentence(alone=alone).say(language) if output.kind in QUANTITIES else output.column
+    quantity = output.sentence(alone=alone).translate(language) if output.kind in QUANTITIES else output.column
     unit = unit_of(output.dimension, [values])
     low, high = (significant(end * unit.factor) for end in ends)
     return _("{quantity}: {low} … {high}", quantity=unit.label(quantity), low=low, high=high).translate(language)

@@ -38,7 +38,7 @@ def draw_cam_motion(result: CamDesign, request: Request) -> Figure:
         values = result.motion[order] * (speed**order if speed else 1.0)
         ends = [result.cam.program.extreme(order, kind) for kind in ("max", "min")]
         peaks = tuple((each.place, each.value * (speed**order if speed else 1.0)) for each in ends)
-        panels.append(Panel(request.say(title), kinds[order], (Curve("", values, marks=peaks),)))
+        panels.append(Panel(request.translate(title), kinds[order], (Curve("", values, marks=peaks),)))
     return stacked(panels, _turn(result, request), request, request.titled(result.title))
 
 
@@ -48,29 +48,29 @@ def draw_cam_checks(result: CamDesign, request: Request) -> Figure:
     contact = result.contact
     steepest = _peaks(result.pressure_angle_rise, result.pressure_angle_fall)
     pressed = Curve("", contact.pressure_angle, marks=steepest if contact.pressure_angle.any() else ())
-    panels = [Panel(request.say(_("pressure angle α")), "angle", (pressed,))]
+    panels = [Panel(request.translate(_("pressure angle α")), "angle", (pressed,))]
     largest = 5.0 * result.size
     with np.errstate(divide="ignore"):
         radius = 1.0 / contact.curvature
     bent = np.where(np.abs(radius) < largest, radius, np.nan)
-    panels.append(Panel(request.say(_("radius of curvature ρ")), "length", (Curve("", bent),)))
+    panels.append(Panel(request.translate(_("radius of curvature ρ")), "length", (Curve("", bent),)))
     if result.loaded and result.cam.barrel_radius is None:
         force, torque = (
             _peaks(extreme("max"), extreme("min")) for extreme in (result.extreme_force, result.extreme_torque)
         )
         panels.append(
-            Panel(request.say(_("contact force N")), "force", (Curve("", result.contact_force, marks=force),))
+            Panel(request.translate(_("contact force N")), "force", (Curve("", result.contact_force, marks=force),))
         )
         if result.pressure is not None and result.largest_pressure is not None:
             line = Curve("", result.pressure, marks=_peaks(result.largest_pressure))
-            panels.append(Panel(request.say(_("contact pressure p")), "pressure", (line,)))
-        panels.append(Panel(request.say(_("torque T")), "torque", (Curve("", result.torque, marks=torque),)))
+            panels.append(Panel(request.translate(_("contact pressure p")), "pressure", (line,)))
+        panels.append(Panel(request.translate(_("torque T")), "torque", (Curve("", result.torque, marks=torque),)))
     return stacked(panels, _turn(result, request), request, request.titled(result.title))
 
 
 def _turn(result: CamDesign, request: Request) -> InputAxis:
     """The axis of the cam's angle."""
-    return InputAxis("angle", result.angles, request.say(_("cam angle φ")))
+    return InputAxis("angle", result.angles, request.translate(_("cam angle φ")))
 
 
 def _peaks(*found: Extreme) -> tuple[tuple[float, float], ...]:
@@ -116,10 +116,10 @@ def draw_cam_profile(result: CamDesign, request: Request) -> Figure:
 def _coloured(result: CamDesign, request: Request) -> tuple[np.ndarray, str]:
     """What the profile is coloured by, and its name with unit."""
     if result.pressure is not None:
-        return 1e-6 * result.pressure, request.say(_("contact pressure p")) + " (MPa)"
+        return 1e-6 * result.pressure, request.translate(_("contact pressure p")) + " (MPa)"
     if result.loaded and result.cam.barrel_radius is None:
-        return result.contact_force, request.say(_("contact force N")) + " (N)"
-    return np.degrees(result.contact.pressure_angle), request.say(_("pressure angle α")) + " (°)"
+        return result.contact_force, request.translate(_("contact force N")) + " (N)"
+    return np.degrees(result.contact.pressure_angle), request.translate(_("pressure angle α")) + " (°)"
 
 
 @result_diagram("cam_vibration", _("vibration over the speed"), CamDesign, usual=False)
@@ -132,15 +132,15 @@ def draw_cam_vibration(result: CamDesign, request: Request) -> Figure:
     left = result.residual_vibration(speeds)
     kind = result.cam.follower.lift_dimension
     panels = [
-        Panel(request.say(_("deviation z")), kind, (Curve("", result.steady_deviation(speeds)),)),
+        Panel(request.translate(_("deviation z")), kind, (Curve("", result.steady_deviation(speeds)),)),
         Panel(
-            request.say(_("amplitude left A")),
+            request.translate(_("amplitude left A")),
             kind,
             tuple(
-                Curve(request.say(_("after rise or fall {number}", number=k)), column)
+                Curve(request.translate(_("after rise or fall {number}", number=k)), column)
                 for k, column in enumerate(left.T, 1)
             ),
         ),
     ]
-    axis = InputAxis("angular_velocity", speeds, request.say(_("speed of the cam")))
+    axis = InputAxis("angular_velocity", speeds, request.translate(_("speed of the cam")))
     return stacked(panels, axis, request, request.titled(result.title))

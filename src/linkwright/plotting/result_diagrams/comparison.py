@@ -43,7 +43,7 @@ def draw_comparison(result: Comparison, request: Request) -> Figure:
     ``of``: travel, velocity, acceleration, pivot_reaction, input_torque; all that there are by default.
     """
     sources = {each.label: PlotInput(each.motion) for each in result.alternatives}
-    axis = _axis(sources, request.say)
+    axis = _axis(sources, request.translate)
     panels = [
         panel for overlay in _chosen(result, request.of) for panel in _panels(result, overlay, sources, request)
     ]
@@ -90,7 +90,7 @@ def _chosen(result: Comparison, names: Sequence[str]) -> list[Overlay]:
     return [known[name] for name in names or known]
 
 
-def _axis(sources: Mapping[str, PlotInput], say: Translate) -> InputAxis:
+def _axis(sources: Mapping[str, PlotInput], translate: Translate) -> InputAxis:
     """The input passed; raises LinkwrightError where one input turns and another slides."""
     turning = {next(iter(each.motion.positions.rotary.values())) for each in sources.values()}
     if len(turning) > 1:
@@ -103,7 +103,7 @@ def _axis(sources: Mapping[str, PlotInput], say: Translate) -> InputAxis:
         )
     longest = max(map(_passed, sources.values()), key=lambda x: float(np.nanmax(x)))
     dimension = "angle" if turning.pop() else "length"
-    return InputAxis(dimension, longest, f"{say(_('input passed'))} {SYMBOLS[dimension]}")
+    return InputAxis(dimension, longest, f"{translate(_('input passed'))} {SYMBOLS[dimension]}")
 
 
 def _passed(source: PlotInput) -> Floats:
@@ -116,7 +116,7 @@ def _panels(result: Comparison, overlay: Overlay, sources: Mapping[str, PlotInpu
     looks = {label: look(n) for n, label in enumerate(result.labels)}
     kinds = _MOTION.get(overlay.name)
     if kinds is None:
-        title = request.say(CURVES[overlay.name])
+        title = request.translate(CURVES[overlay.name])
         curves = [_curve(overlay, label, sources[label], looks) for label in result.labels]
         return [Panel(title, overlay.dimension, tuple(curves))]
     found = []
@@ -125,7 +125,7 @@ def _panels(result: Comparison, overlay: Overlay, sources: Mapping[str, PlotInpu
         if labels:
             turns = dimension == "angle"
             curves = [_curve(overlay, label, sources[label], looks, turns=turns) for label in labels]
-            found.append(Panel(f"{request.say(word)} {symbol}", dimension, tuple(curves)))
+            found.append(Panel(f"{request.translate(word)} {symbol}", dimension, tuple(curves)))
     return found
 
 
@@ -207,13 +207,13 @@ def _draw(axes: Axes, name: str, rows: tuple[MetricValue, ...], request: Request
 
 def _limit(axes: Axes, place: float, better: str | None, request: Request, legend: Legend) -> None:
     line = axes.axvline(place, color=COLOURS[1], linewidth=1.1, linestyle=(0, (6, 3)), zorder=3)
-    legend.add(request.say(_("recommended limit")), line)
+    legend.add(request.translate(_("recommended limit")), line)
     if better is None:
         return
     low, high = axes.get_xlim()
     wrong = (low, place) if better == "higher" else (place, high)
     axes.axvspan(*wrong, color=WRONG, linewidth=0, zorder=0.5)
-    legend.patch(request.say(_("outside the limit")), WRONG)
+    legend.patch(request.translate(_("outside the limit")), WRONG)
 
 
 def _number(axes: Axes, value: float, place: float, unit: Unit) -> None:

@@ -102,14 +102,14 @@ def _failed(axes: Axes, x: Floats, legend: Legend, request: Request) -> None:
         clip_on=False,
         zorder=4,
     )
-    legend.add(request.say(_("design fails")), line)
+    legend.add(request.translate(_("design fails")), line)
 
 
 def _best(axes: Axes, x: float, measure: Column, legend: Legend, request: Request) -> None:
     assert measure.best is not None
     y = float(measure.values[measure.best])
     (line,) = axes.plot([x], [y], "o", color=COLOURS[1], markersize=8, fillstyle="none", zorder=5)
-    legend.add(request.say(_("best")), line)
+    legend.add(request.translate(_("best")), line)
 
 
 def _over_two(table: DesignTable, request: Request, legend: Legend) -> Figure:
@@ -127,7 +127,7 @@ def _over_two(table: DesignTable, request: Request, legend: Legend) -> Figure:
         failed = ~table.ok
         if failed.any():
             (line,) = one.plot(across.values[failed], up.values[failed], "x", color=FAILED, markersize=4.5)
-            legend.add(request.say(_("design fails")), line)
+            legend.add(request.translate(_("design fails")), line)
         if request.marks and measure.best is not None:
             place = (across.values[measure.best], up.values[measure.best])
             (ring,) = one.plot(
@@ -139,7 +139,7 @@ def _over_two(table: DesignTable, request: Request, legend: Legend) -> Figure:
                 markeredgewidth=1.8,
                 zorder=5,
             )
-            legend.add(request.say(_("best")), ring)
+            legend.add(request.translate(_("best")), ring)
         one.set_xlabel(across.label)
         one.set_ylabel(up.label)
     for spare in places[count:]:
@@ -377,7 +377,7 @@ def draw_sensitivity(result: Sensitivity, request: Request) -> Figure:
     axes.set_yticks(places, list(result.by))
     axes.set_ylim(len(result.by) - 0.4, -0.6)
     axes.margins(x=0.06)
-    axes.set_xlabel(request.say(_("change per 1 % of the dimension (%)")))
+    axes.set_xlabel(request.translate(_("change per 1 % of the dimension (%)")))
     return framed(figure, request.titled(result.mechanism.name), request, legend)
 
 
@@ -417,10 +417,12 @@ def _panel(result: Sensitivity, name: str, request: Request) -> Panel:
     curves = []
     for by in result.by:
         step, text = _step(result.mechanism, by)
-        label = request.say(_("{dimension} + {step}", dimension=by, step=text))
+        label = request.translate(_("{dimension} + {step}", dimension=by, step=text))
         values: Floats = step * result.slope(name, by)
         curves.append(Curve(label, values))
-    return Panel(request.say(_("change of {output}", output=name)), result.quantities[name].dimension, tuple(curves))
+    return Panel(
+        request.translate(_("change of {output}", output=name)), result.quantities[name].dimension, tuple(curves)
+    )
 
 
 def _step(mechanism: Mechanism, by: str) -> tuple[float, str]:

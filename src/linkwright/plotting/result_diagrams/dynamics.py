@@ -31,9 +31,9 @@ VANISHED = 1e-9
 @result_diagram("balancing", _("effect of the counterweights"), Balancing)
 def draw_balancing(result: Balancing, request: Request) -> Figure:
     """Left the hodograph of the shaking force, right shaking moment and input torque over the input."""
-    say = request.say
+    translate = request.translate
     before, after = PlotInput(result.before), PlotInput(result.after)
-    names, legend = (say(_("without counterweights")), say(_("with counterweights"))), Legend()
+    names, legend = (translate(_("without counterweights")), translate(_("with counterweights"))), Legend()
     figure = new_figure(request.size or (9.6, 4.9))
     places = figure.subplot_mosaic([["force", "moment"], ["force", "torque"]])
     loops = [each.closed(each.forces.shaking_force) for each in (before, after)]
@@ -46,9 +46,9 @@ def draw_balancing(result: Balancing, request: Request) -> Figure:
         ("moment", (_("shaking moment"), "M", "torque"), moments),
         ("torque", effort, torques),
     ):
-        panel = Panel(f"{say(word)} {letter}", dimension, _curves(names, values))
+        panel = Panel(f"{translate(word)} {letter}", dimension, _curves(names, values))
         draw_panel(places[place], panel, before.axis, request, legend)
-        label_input(places[place], before.axis, say)
+        label_input(places[place], before.axis, translate)
     places["moment"].set_xlabel("")
     places["moment"].tick_params(labelbottom=False)
     figure.align_ylabels([places["moment"], places["torque"]])
@@ -69,7 +69,7 @@ def _hodograph(axes: Axes, loops: list[Floats], names: tuple[str, str], request:
         legend.add(name, line)
         if largest(loop) <= VANISHED * widest:
             axes.plot([0], [0], "o", color=colour, markersize=6, zorder=4)
-    axes.set_title(request.say(_("shaking force")), color=INK)
+    axes.set_title(request.translate(_("shaking force")), color=INK)
     make_force_plane(axes, unit)
 
 
@@ -82,7 +82,7 @@ def draw_torque_curve(result: TorqueCurve, request: Request) -> Figure:
     """T(φ) over one period; jumps are drawn upright."""
     angle = _angles(result)
     panel = with_mean(
-        request.say(_("torque")) + " T", "torque", Curve("", result(angle), "both"), result.mean, request
+        request.translate(_("torque")) + " T", "torque", Curve("", result(angle), "both"), result.mean, request
     )
     return stacked([panel], InputAxis("angle", angle), request, request.titled(""))
 
@@ -133,7 +133,7 @@ def draw_vibration_response(result: Vibration, request: Request) -> Figure:
         turn = tuple(map(Curve, names, np.unwrap(np.angle(amplitudes.T))))
         passed = (Curve("", result.transmissibility(frequency)),)
         panels = [Panel("|X|", length, size, log=True), Panel("∠X", "angle", turn), Panel("T", "", passed, log=True)]
-        axis = InputAxis("frequency", hertz, request.say(_("frequency")), log=True)
+        axis = InputAxis("frequency", hertz, request.translate(_("frequency")), log=True)
         return stacked(panels, axis, request, request.titled(result.title))
     modes = [f"{f / (2 * math.pi):.4g} Hz" for f in result.frequencies]
     panel = Panel("φ", "", tuple(map(Curve, modes, result.shapes.T)))
@@ -142,7 +142,7 @@ def draw_vibration_response(result: Vibration, request: Request) -> Figure:
 
 
 def _over_time(time: Floats, panels: Sequence[Panel], title: str, request: Request) -> Figure:
-    axis = InputAxis("time", time, request.say(_("time")))
+    axis = InputAxis("time", time, request.translate(_("time")))
     return stacked(panels, axis, request, request.titled(title))
 
 

@@ -101,8 +101,8 @@ def draw_belt_tension(result: BeltTensions, request: Request) -> Figure:
     """Tension along the contact."""
     angle, tension = result.columns().values()
     curve = Curve("", tension, marks=tuple(zip(angle[[0, -1]], tension[[0, -1]], strict=True)))
-    axis = InputAxis("angle", angle, request.say(_("angle of contact")))
-    panel = Panel(request.say(_("tension")), "force", (curve,))
+    axis = InputAxis("angle", angle, request.translate(_("angle of contact")))
+    panel = Panel(request.translate(_("tension")), "force", (curve,))
     return stacked([panel], axis, request, request.titled(result.title))
 
 
@@ -110,8 +110,8 @@ def draw_belt_tension(result: BeltTensions, request: Request) -> Figure:
 def draw_wedge_push(result: WedgeForces, request: Request) -> Figure:
     """Push over the wedge's angle."""
     angle, up, down = result.columns().values()
-    curves = (Curve(request.say(_("raising")), up), Curve(request.say(_("lowering")), down))
-    axis = InputAxis("angle", angle, request.say(_("angle of the wedge")))
+    curves = (Curve(request.translate(_("raising")), up), Curve(request.translate(_("lowering")), down))
+    axis = InputAxis("angle", angle, request.translate(_("angle of the wedge")))
     return stacked([Panel("P", "force", curves)], axis, request, request.titled(result.title))
 
 

@@ -58,7 +58,7 @@ def _histogram(axes: Axes, result: Statistics, name: str, colours: Mapping[str, 
         if limit is not None:
             axes.axvline(limit / scale.factor, color=COLOURS[1], linestyle="--", linewidth=1.1)
     axes.set_xlabel(f"{name} ({scale.unit})" if scale.unit else name)
-    density = request.say(pgettext("plot", "density"))
+    density = request.translate(pgettext("plot", "density"))
     axes.set_ylabel(f"{density} (1/{scale.unit})" if scale.unit else density)
     if axes.get_legend_handles_labels()[0]:
         axes.legend()
@@ -103,7 +103,7 @@ def _machines(axes: Axes, result: Spread, text: str, request: Request) -> None:
     for end in (limit.lower, limit.upper) if limit else ():
         if np.isfinite(end):
             axes.axvline(end * shown.factor, color=COLOURS[1], linestyle="--", linewidth=1.1)
-    axes.set(xlabel=shown.label(text), ylabel=request.say(_("machines")))
+    axes.set(xlabel=shown.label(text), ylabel=request.translate(_("machines")))
 
 
 def _band(axes: Axes, result: Spread, output: str) -> None:
@@ -180,5 +180,5 @@ def _bars(axes: Axes, result: Optimum, request: Request) -> None:
     axes.barh([c.name for c in limits], 100 * np.array(used), color=colours)
     axes.set_xlim(0.0, 105.0)
     axes.axvline(100.0, color=INK, linewidth=0.9)
-    axes.set_xlabel(request.say(_("share of the limit that is used (%)")))
+    axes.set_xlabel(request.translate(_("share of the limit that is used (%)")))
     axes.invert_yaxis()

@@ -33,7 +33,7 @@ from linkwright.synthesis.motion_generation.generate import MotionDerivation
 from linkwright.synthesis.requirements.crank_rocker import CrankRockerDerivation, QuickReturnDerivation
 from linkwright.synthesis.requirements.slider_crank import SliderCrankDerivation
 from linkwright.synthesis.result import Candidate, Synthesis, title_text
-from linkwright.words import Translate, _, pgettext, say
+from linkwright.words import Translate, _, pgettext, translate
 
 SHOWN = 4
 #: What the output of a task's curve is, where it is not that of a function.
@@ -67,7 +67,7 @@ def _plane(axes: Axes, result: Synthesis, language: str, legend: Legend) -> None
     for name, curve in result.curves.items():
         colour = FAINT if "centre" in name else "#d9a13b"
         (dots,) = axes.plot(*_places(curve), ".", ms=2.5, color=colour)
-        legend.add(say(CURVES[name], language), dots)
+        legend.add(translate(CURVES[name], language), dots)
     for number, each in enumerate(result.candidates[:SHOWN]):
         colour = COLOURS[number % len(COLOURS)]
         label = _("candidate {number}", number=number + 1).translate(language)
@@ -149,7 +149,7 @@ def draw_structural_error(result: Synthesis, request: Request) -> Figure:
     axes.plot(x[order], factor * off[order], "o-", color=COLOURS[0], ms=4, linewidth=0.8)
     if result.error_name not in ("angle", "length"):
         axes.locator_params(axis="x", integer=True)
-    axes.set(xlabel=label, ylabel=request.say(_("deviation (°)") if angles else _("deviation (mm)")))
+    axes.set(xlabel=label, ylabel=request.translate(_("deviation (°)") if angles else _("deviation (mm)")))
     axes.margins(x=0.05, y=0.15)
     return framed(figure, title_text(result, speaker(request.language)), request)
 
@@ -183,12 +183,12 @@ def draw_coupler_curve(result: CouplerCurve, request: Request) -> Figure:
                     fillstyle="none",
                     markeredgewidth=1.4,
                 )
-                legend.add(request.say(name), dots)
+                legend.add(request.translate(name), dots)
     make_plane(axes, 0.1)
     length, area = unit.text(result.length, 6), unit_of("area").text(result.area, 6)
     return framed(
         figure,
-        request.say(
+        request.translate(
             _("coupler curve of {point}, length {length}, area {area}", point=result.point, length=length, area=area)
         ),
         request,
@@ -266,7 +266,7 @@ class Construction:
         """The angle between two rays from a point."""
         self.angles.append((name, at, first, last, radius))
 
-    def cell(self, say: Translate) -> Cell:
+    def cell(self, translate: Translate) -> Cell:
         """All of it to a round scale."""
         every = np.concatenate([line for line, _ in self.lines])
         scale = scale_of_picture(_flat(every[np.isfinite(every)]), EXTENT)
@@ -289,7 +289,7 @@ class Construction:
             sketch.put("pin", at=vec(paper(place)), radius=4.0)
             sketch.name(name, paper(place), style=f"{style}-name")
         sketch.write_names()
-        title = scale_title(say(_("construction")), "l", f"{significant(scale * 1e3)} mm/mm")
+        title = scale_title(translate(_("construction")), "l", f"{significant(scale * 1e3)} mm/mm")
         return Cell(sketch, (title,), f"{significant(scale * BAR * MILLIMETRE * 1e3)} mm")
 
 
@@ -438,8 +438,8 @@ DRAWN: Mapping[type, Callable[[Construction, Any, Synthesis], None]] = {
 )
 def draw_construction(result: Synthesis, request: Request) -> Drawing:
     """The construction of the first candidate."""
-    plane, say = Construction(), request.say
+    plane, translate = Construction(), request.translate
     DRAWN[type(result.derivation)](plane, result.derivation, result)
-    curves = key([(say(CURVES[name]), f"lw-{name}") for name in result.curves])
-    title = title_text(result, say)
-    return page([plane.cell(say)], 1, [curves] if curves else [], request.heading(title), title, CSS)
+    curves = key([(translate(CURVES[name]), f"lw-{name}") for name in result.curves])
+    title = title_text(result, translate)
+    return page([plane.cell(translate)], 1, [curves] if curves else [], request.heading(title), title, CSS)

@@ -73,7 +73,7 @@ def blocks(case: ReportContext) -> Iterator[Block]:
 class _Conclusion:
     def __init__(self, case: ReportContext) -> None:
         self.case = case
-        self.say = case.say
+        self.translate = case.translate
         self.moves = bool(case.mechanism.drivers)
 
     def all(self) -> Iterator[Block]:
@@ -90,13 +90,13 @@ class _Conclusion:
 
     def _paragraph(self, subject: Message, sentences: Iterator[str]) -> Iterator[Block]:
         if text := self._joined(*sentences):
-            yield Paragraph(self._joined(self.say(subject), text))
+            yield Paragraph(self._joined(self.translate(subject), text))
 
     def _joined(self, *sentences: str) -> str:
         """Sentences of one paragraph; between Chinese ones there is no space."""
 
         def together(first: str, second: str) -> str:
-            return self.say(_("{first} {second}", first=first, second=second))
+            return self.translate(_("{first} {second}", first=first, second=second))
 
         return reduce(together, sentences) if sentences else ""
 
@@ -105,25 +105,27 @@ class _Conclusion:
 
     # motion -----------------------------------------------------------------------------------
     def _motion(self) -> Iterator[str]:
-        say = self.say
+        translate = self.translate
         for row in self._rows("stroke", "swing_angle")[:MOST]:
             moved = (
                 _("The stroke of {subject} is {value}.")
                 if row.metric == "stroke"
                 else _("The swing angle of {subject} is {value}.")
             )
-            yield say(moved.format(subject=literal(row.subject), value=_value(row)))
+            yield translate(moved.format(subject=literal(row.subject), value=_value(row)))
         for row in self._rows("quick_return_ratio")[:MOST]:
             ratio = (
                 _("The slow stroke of {subject} takes {ratio} times as long as the fast one (quick-return ratio K).")
                 if abs(row.value - 1.0) > 1e-6
                 else _("Both strokes of {subject} take the same time (quick-return ratio K = 1).")
             )
-            yield say(ratio.format(subject=literal(row.subject), ratio=_value(row)))
+            yield translate(ratio.format(subject=literal(row.subject), ratio=_value(row)))
         for output in main_outputs(self.case.motion)[:MOST]:
             yield from self._rates(output)
         if not self.case.motion.complete:
-            yield say(_("The values hold for the part of the input's range in which the machine can be assembled."))
+            yield translate(
+                _("The values hold for the part of the input's range in which the machine can be assembled.")
+            )
 
     def _rates(self, output: Output) -> Iterator[str]:
         """The largest velocity and acceleration of an output or of a point, with their places."""
@@ -132,7 +134,7 @@ class _Conclusion:
         if not (math.isfinite(first.value) and math.isfinite(second.value)):
             return
         places = [typeset(shown(each.input, analysis.input_dimension)) for each in (first, second)]
-        yield self.say(
+        yield self.translate(
             (
                 _(
                     "The angular velocity of {subject} is at most {velocity} (at q = {first}), its "
@@ -154,7 +156,7 @@ class _Conclusion:
 
     # transmission -----------------------------------------------------------------------------
     def _transmission(self) -> Iterator[str]:
-        say = self.say
+        translate = self.translate
         if (row := _lowest(self._rows("transmission_angle"))) is not None and row.limit is not None:
             message = (
                 _(
@@ -167,9 +169,9 @@ class _Conclusion:
                     "the recommended limit of {limit}."
                 )
             )
-            yield say(message.format(**_placeholders(row), limit=typeset(shown(row.limit, row.dimension))))
+            yield translate(message.format(**_placeholders(row), limit=typeset(shown(row.limit, row.dimension))))
         if (row := _lowest(self._rows("singularity"))) is not None:
-            yield say(
+            yield translate(
                 (
                     _(
                         "Group {subject} comes close to a singular position at q = {at} (distance from it "
@@ -184,22 +186,22 @@ class _Conclusion:
             )
 
     def _limits(self) -> Iterator[Block]:
-        say, rows = self.say, [row for row in self.case.metrics if row.limit is not None]
+        translate, rows = self.translate, [row for row in self.case.metrics if row.limit is not None]
         if not rows:
             return
         count = sum(map(broken, rows))
         if not count:
             yield Paragraph(
                 self._joined(
-                    say(_("**Recommended limits.**")),
-                    say(_("All {count} values that have a recommended limit keep it.", count=len(rows))),
+                    translate(_("**Recommended limits.**")),
+                    translate(_("All {count} values that have a recommended limit keep it.", count=len(rows))),
                 )
             )
             return
         yield Paragraph(
             self._joined(
-                say(_("**Recommended limits.**")),
-                say(
+                translate(_("**Recommended limits.**")),
+                translate(
                     _(
                         "Of {count} values that have a recommended limit {broken} do not keep it:",
                         count=len(rows),
@@ -213,24 +215,24 @@ class _Conclusion:
 
     # forces -----------------------------------------------------------------------------------
     def _forces(self) -> Iterator[str]:
-        say, case = self.say, self.case
+        translate, case = self.translate, self.case
         peaks = self._rows("peak_reaction")
         if peaks:
             top = max(peaks, key=lambda row: row.value)
             equal = [row for row in peaks if abs(row.value - top.value) <= EQUAL * abs(top.value)]
-            joints = say(_(", ")).join(literal(in_words(row.subject, case.language)) for row in equal)
+            joints = translate(_(", ")).join(literal(in_words(row.subject, case.language)) for row in equal)
             largest = (
                 _("The largest joint force is {value} (joint {joints}).")
                 if top.at is None or not self.moves
                 else _("The largest joint force is {value} (joint {joints}, at q = {at}).")
             )
-            yield say(largest.format(value=_value(top), joints=joints, at=_at(top)))
+            yield translate(largest.format(value=_value(top), joints=joints, at=_at(top)))
         if not self.moves:
             return
         for row in self._rows("peak_input_torque"):
             yield from self._effort(row)
         for row in self._rows("peak_shaking_force"):
-            yield say(
+            yield translate(
                 _("The largest shaking force on the frame is {value} (at q = {at}).", value=_value(row), at=_at(row))
             )
 
@@ -242,7 +244,7 @@ class _Conclusion:
             return
         small = abs(mean) <= NOTHING * abs(peak.value)
         torque, force = SUPPLIED if len(self.case.mechanism.drivers) > 1 else SUPPLIED_ALONE
-        yield self.say(
+        yield self.translate(
             (torque if peak.dimension == "torque" else force).format(
                 driver=literal(in_words(peak.subject, self.case.language)),
                 peak=_value(peak),
@@ -253,13 +255,13 @@ class _Conclusion:
         )
         if not small and abs(peak.value) > WORTH * abs(mean):
             ratio = abs(peak.value / mean)
-            yield self.say(
+            yield self.translate(
                 _("The peak is {ratio} times the mean.", ratio=f"{ratio:.0f}" if ratio >= 100.0 else f"{ratio:.3g}")
             )
 
     # flywheel ---------------------------------------------------------------------------------
     def _flywheel(self) -> Iterator[str]:
-        say, case = self.say, self.case
+        translate, case = self.translate, self.case
         try:
             running = case.running
         except LinkwrightError:
@@ -267,7 +269,7 @@ class _Conclusion:
         at, excess = running.equivalent.input_at, running.energy
         low, high = (typeset(shown(at(end), "angle")) for end in (excess.low, excess.high))
         energy = typeset(shown(excess.value, "energy"))
-        yield say(
+        yield translate(
             _(
                 "What governs the flywheel is the stretch from q = {low}, where the input turns "
                 "slowest, on to q = {high}, where it turns fastest: there the energy excess grows by "
@@ -279,7 +281,7 @@ class _Conclusion:
         )
         fluctuation = f"{running.required:g}"
         if not running.exact_flywheel:
-            yield say(
+            yield translate(
                 _(
                     "For δ = {fluctuation} no flywheel is needed: the machine's own inertia is enough.",
                     fluctuation=fluctuation,
@@ -287,7 +289,7 @@ class _Conclusion:
             )
             return
         inertia, formula = (typeset(shown(each, "inertia")) for each in (running.exact_flywheel, running.flywheel))
-        yield say(
+        yield translate(
             _(
                 "For δ = {fluctuation} the input shaft needs a flywheel of {inertia} ({formula} by the formula).",
                 fluctuation=fluctuation,
@@ -295,14 +297,14 @@ class _Conclusion:
                 formula=formula,
             )
         )
-        yield say(_("Without a flywheel δ would be {own} by the formula.", own=typeset(f"{running.own:.4g}")))
+        yield translate(_("Without a flywheel δ would be {own} by the formula.", own=typeset(f"{running.own:.4g}")))
 
     # changes ----------------------------------------------------------------------------------
     def _changes(self) -> Iterator[str]:
         found = improvements(self.case.motion, self.case.metrics)
         for each in found:
             metric = METRICS[each.row.metric]().label_in(self.case.language, each.row.dimension)
-            yield self.say(
+            yield self.translate(
                 (
                     _(
                         "Among the link lengths {dimension} has most influence on the {metric}: 1 % {way} "
@@ -316,13 +318,13 @@ class _Conclusion:
                 ).format(
                     metric=literal(metric),
                     dimension=literal(each.dimension),
-                    way=self.say(_("longer") if each.longer else _("shorter")),
+                    way=self.translate(_("longer") if each.longer else _("shorter")),
                     value=_value(each.row),
                     better=typeset(value_text(each.better, each.row.dimension)),
                 )
             )
             percent = typeset(f"{each.side_effect:.2g}") if abs(each.side_effect) > SMALLEST else "0"
-            yield self.say(
+            yield self.translate(
                 _(
                     "The travel of {output} would then change by {percent} %.",
                     output=literal(each.output),
@@ -330,7 +332,7 @@ class _Conclusion:
                 )
             )
         if found:
-            yield self.say(
+            yield self.translate(
                 _(
                     "These figures are of first order, from the exact derivatives at the present "
                     "dimensions; what else is asked of the machine is to be checked anew."

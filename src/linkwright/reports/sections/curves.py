@@ -32,12 +32,12 @@ def blocks(case: ReportContext) -> Iterator[Block]:
     """Diagrams of the motion."""
     if not case.mechanism.drivers:
         raise Missing(_("the machine has no driver, so nothing moves", code="report.no_motion"))
-    yield Paragraph(case.say(_("The marks on the curves are limit positions and peaks.")))
+    yield Paragraph(case.translate(_("The marks on the curves are limit positions and peaks.")))
     outputs = main_outputs(case.motion)
     if len(outputs) == 1:
         outputs = []
     for output in outputs:
-        caption = case.say(
+        caption = case.translate(
             _("Displacement, velocity and acceleration of {output} over the input", output=str(output))
         )
         if (shown := _figure(case, "sva", caption, of=(str(output),))) is not None:
@@ -48,7 +48,7 @@ def blocks(case: ReportContext) -> Iterator[Block]:
 def pictures(case: ReportContext, kinds: tuple[str, ...]) -> Iterator[Block]:
     """A figure per kind of diagram, or why there is none."""
     for kind in kinds:
-        shown = _figure(case, kind, case.say(CAPTIONS[kind]))
+        shown = _figure(case, kind, case.translate(CAPTIONS[kind]))
         if shown is not None:
             yield shown
 
@@ -60,5 +60,5 @@ def _figure(case: ReportContext, kind: str, caption: str, **options: object) -> 
     except LinkwrightError as error:
         if error.code in WITHOUT:
             return None
-        return Paragraph(f"{case.say(title_of(kind))}: {literal(case.message(error))}", "missing")
+        return Paragraph(f"{case.translate(title_of(kind))}: {literal(case.message(error))}", "missing")
     return Figure(caption, ((shown, SHARE),), "" if options else kind, TALLEST)

@@ -20,11 +20,11 @@ from linkwright.words import Message, _
 @section("tables", _("Tables over the cycle"), 6.0)
 def tables(case: ReportContext) -> Iterator[Block]:
     """Angles and rates of links, guides, points; joint forces and driver effort: at the numbered positions."""
-    say, numbered = case.say, case.numbered
+    translate, numbered = case.translate, case.numbered
     count = str(len(numbered.rows))
     if numbered.listed:
         yield Paragraph(
-            say(
+            translate(
                 _(
                     "The {count} positions are those that the task asks for, in its order; limit "
                     "positions among them are exact.",
@@ -36,7 +36,7 @@ def tables(case: ReportContext) -> Iterator[Block]:
     elif numbered.start is not None:
         place = f"{case.input_text(numbered.start.input)}{case.input_unit}"
         yield Paragraph(
-            say(
+            translate(
                 _(
                     "The {count} positions are equally spaced in time and numbered from the limit "
                     "position at the input {input} on.",
@@ -47,7 +47,7 @@ def tables(case: ReportContext) -> Iterator[Block]:
         )
     elif case.mechanism.drivers:
         yield Paragraph(
-            say(
+            translate(
                 _(
                     "The {count} positions are equally spaced over the motion and numbered from its start.",
                     count=count,
@@ -61,9 +61,9 @@ def tables(case: ReportContext) -> Iterator[Block]:
     yield Paragraph(literal(case.links_text))
     columns = without_rounding(motion_results(numbered.motion))
     if len(inputs := _of(columns, "input")) > 1:
-        yield table(case, say(_("Inputs of the drivers")), columns, inputs)
+        yield table(case, translate(_("Inputs of the drivers")), columns, inputs)
     for title, wanted in _motion_tables(case, columns):
-        yield table(case, say(title), columns, wanted)
+        yield table(case, translate(title), columns, wanted)
     try:
         columns = without_rounding(force_results(case.numbered_forces))
     except Missing:
@@ -114,10 +114,14 @@ def _unreached(case: ReportContext) -> Iterator[Block]:
     reasons: dict[str, list[str]] = {}
     for number, outcome in enumerate(case.numbered.motion.outcomes, 1):
         if not outcome.ok:
-            reasons.setdefault(outcome.say(case.language), []).append(str(number))
+            reasons.setdefault(outcome.translate(case.language), []).append(str(number))
     for reason, numbers in reasons.items():
-        message = case.say(
-            _("No numbers at position {numbers}: {reason}", numbers=case.say(_(", ")).join(numbers), reason=reason)
+        message = case.translate(
+            _(
+                "No numbers at position {numbers}: {reason}",
+                numbers=case.translate(_(", ")).join(numbers),
+                reason=reason,
+            )
         )
         yield Paragraph(literal(message), "missing")
 
@@ -130,7 +134,7 @@ def varying(
     still = [name for name in names if name not in moving and np.isfinite(columns[name]).any()]
     if still:
         yield Paragraph(
-            case.say(
+            case.translate(
                 _(
                     "Constant over the cycle: {values}.",
                     values=", ".join(_equal(case, columns, each) for each in still),
@@ -138,7 +142,7 @@ def varying(
             )
         )
     if moving:
-        yield table(case, case.say(title), columns, moving)
+        yield table(case, case.translate(title), columns, moving)
 
 
 def _equal(case: ReportContext, columns: Mapping[Output, Floats], name: Output) -> str:
@@ -168,7 +172,7 @@ def leading(case: ReportContext) -> tuple[tuple[str, ...], list[tuple[str, ...]]
     """Heads and cells of what every table begins with: numbers of the positions, the time where drivers follow laws
     of their own, the input; of several drivers the first one's, or the time alone."""
     motion, rows = case.numbered.motion, list(case.numbered.rows)
-    heads, columns = [case.say(_("no."))], [[str(k + 1) for k in range(len(rows))]]
+    heads, columns = [case.translate(_("no."))], [[str(k + 1) for k in range(len(rows))]]
     if not case.mechanism.drivers:
         return (*heads, f"$q$ / {case.input_unit}"), [(number, "–") for number in columns[0]]
     if not case.mechanism.steady:
@@ -183,13 +187,13 @@ def leading(case: ReportContext) -> tuple[tuple[str, ...], list[tuple[str, ...]]
 @section("appendix", _("Appendix: all numbers"), 30.0)
 def appendix(case: ReportContext) -> Iterator[Block]:
     """Every column of the result."""
-    say = case.say
+    translate = case.translate
     try:
         columns = without_rounding(force_results(case.numbered_forces))
     except LinkwrightError:
         columns = without_rounding(motion_results(case.numbered.motion))
     yield Paragraph(
-        say(
+        translate(
             _(
                 "All results at the numbered positions; $\\Delta P$ and $\\Delta F$ are what is left "
                 "over in the balance of powers and of forces."

@@ -25,11 +25,11 @@ ELSEWHERE = ("peak_reaction", "rms_reaction", "flywheel")
 @section("limits", _("Limit positions and metrics"), 10.0, optional=True)
 def limits(case: ReportContext) -> Iterator[Block]:
     """Metrics of the motion and the forces, with the limits that are recommended."""
-    say = case.say
+    translate = case.translate
     rows = [row for row in case.metrics if row.metric not in ELSEWHERE]
     if not rows:
         raise Missing(_("no metric applies to this machine", code="report.no_numbers"))
-    yield Paragraph(say(_("Largest and smallest values are exact, found between the solved positions.")))
+    yield Paragraph(translate(_("Largest and smallest values are exact, found between the solved positions.")))
     yield from _quick_return(case, rows)
     for metric in dict.fromkeys(row.metric for row in rows):
         case.used[metric] = None
@@ -51,7 +51,7 @@ def _quick_return(case: ReportContext, rows: list[MetricValue]) -> Iterator[Bloc
         fraction = "(180° + {0})/(180° − {0})"
         symbols, numbers = fraction.format("θ"), fraction.format(f"{number(row.value, 'angle')}°")
         yield Paragraph(
-            case.say(
+            case.translate(
                 _(
                     "Quick-return ratio of {subject}, with the angle $\\theta$ of the crank between the limits:",
                     subject=literal(row.subject),
@@ -71,7 +71,7 @@ def comparison(cases: Sequence[ReportContext]) -> Iterator[Block]:
             _("there is one machine only; name two or more files to compare them", code="report.one_machine")
         )
     first = cases[0]
-    say = first.say
+    translate = first.translate
     try:
         found = compare([case.mechanism for case in cases], fluctuation=first.settings.fluctuation)
     except LinkwrightError as error:
@@ -84,10 +84,10 @@ def comparison(cases: Sequence[ReportContext]) -> Iterator[Block]:
     yield printed(alternatives, first.language, "comparison")
     for note in table.notes:
         yield Paragraph(literal(note))
-    yield Heading(say(_("Ranking")), 2)
-    for line in ranking(found, say):
+    yield Heading(translate(_("Ranking")), 2)
+    for line in ranking(found, translate):
         yield Paragraph(literal(line.strip()), "bullet" if line.startswith(" ") else "")
-    yield Heading(say(_("Evaluation")), 2)
+    yield Heading(translate(_("Evaluation")), 2)
     for line in sentences(found, first.language):
         yield Paragraph(literal(line))
     for kind, caption in (
@@ -99,4 +99,4 @@ def comparison(cases: Sequence[ReportContext]) -> Iterator[Block]:
         except LinkwrightError as error:
             yield Paragraph(literal(first.message(error)), "missing")
             continue
-        yield Figure(say(caption), ((picture, 0.95),), kind)
+        yield Figure(translate(caption), ((picture, 0.95),), kind)

@@ -28,11 +28,11 @@ def torque(case: ReportContext) -> Iterator[Block]:
     """Effort from the joint forces next to effort from the powers of all forces."""
     if not case.mechanism.drivers:
         raise Missing(_("the machine has no driver, so nothing moves", code="report.no_motion"))
-    say, forces, numbered = case.say, case.forces, case.numbered
+    translate, forces, numbered = case.translate, case.forces, case.numbered
     unit = "N·m" if case.rotary else "N"
     letter = "M" if case.rotary else "F"
     yield Paragraph(
-        say(
+        translate(
             _(
                 "The effort of the driver is found twice: from the equilibrium of the driven link "
                 "with all joint forces, and from the sum of the powers of weight, inertia and loads, "
@@ -52,12 +52,12 @@ def torque(case: ReportContext) -> Iterator[Block]:
         body = tuple((*first[k], printed[0][k], printed[1][k], gaps[k]) for k in range(len(rows)))
         head = (
             *key,
-            say(_("from joint forces")) + f" / {unit}",
-            say(_("from powers")) + f" / {unit}",
-            say(_("difference")) + f" / {unit}",
+            translate(_("from joint forces")) + f" / {unit}",
+            translate(_("from powers")) + f" / {unit}",
+            translate(_("difference")) + f" / {unit}",
         )
         yield TableBlock(
-            say(_("Driving effort from the joint forces and from the powers")),
+            translate(_("Driving effort from the joint forces and from the powers")),
             head,
             body,
             ">" * len(head),
@@ -69,7 +69,7 @@ def torque(case: ReportContext) -> Iterator[Block]:
         (driver,) = case.mechanism.drivers
         top = Analysis.of(forces).part(Summary(f"{driver}.effort", "peak")).value
         yield Paragraph(
-            say(
+            translate(
                 _(
                     "The largest difference of both methods over the cycle is {gap}, against an effort "
                     "of up to {top} ({table}).",
@@ -94,9 +94,9 @@ WITHOUT = ("running.one_driver", "running.not_constant", "running.not_whole_turn
 @section("flywheel", _("Motor and flywheel"), 11.0, optional=True)
 def flywheel(case: ReportContext) -> Iterator[Block]:
     """Mean torque, motor, energy fluctuation, flywheel by the formula and exactly."""
-    say, running = case.say, _running(case)
+    translate, running = case.translate, _running(case)
     yield Paragraph(
-        say(
+        translate(
             _(
                 "For a coefficient of speed fluctuation $\\delta = {fluctuation}$, with the energy "
                 "fluctuation $\\Delta E$, the mean speed $\\omega_{{\\mathrm{{m}}}}$ and the machine's "
@@ -106,7 +106,7 @@ def flywheel(case: ReportContext) -> Iterator[Block]:
         )
     )
     for remark in running.remarks:
-        yield Paragraph(literal(remark.say(case.language)))
+        yield Paragraph(literal(remark.translate(case.language)))
     speed, energy, mean = running.equivalent.speed, running.energy.value, running.equivalent.mean_inertia
     shown = [read("J_F"), row((read("ΔE/(δ ω_m²)"), sign("-"), read_name("J_e,m")))]
     if running.flywheel:
@@ -115,7 +115,7 @@ def flywheel(case: ReportContext) -> Iterator[Block]:
     yield Formula(tuple(shown), "flywheel-formula")
     if not running.flywheel:
         yield Paragraph(
-            say(
+            translate(
                 _(
                     "The machine's own inertia is enough: it runs more evenly than {most} without a flywheel.",
                     most=f"{running.required:g}",
@@ -146,4 +146,4 @@ def _speed(case: ReportContext) -> Iterator[Block]:
     except LinkwrightError as error:
         yield Paragraph(literal(case.message(error)), "missing")
         return
-    yield Figure(case.say(_("True speed over the cycle with the flywheel")), ((shown, 0.92),), "speed")
+    yield Figure(case.translate(_("True speed over the cycle with the flywheel")), ((shown, 0.92),), "speed")

@@ -39,7 +39,7 @@ def gears(case: ReportContext) -> Iterator[Block]:
     if not pairs:
         raise Missing(_("there are no gears, racks or belts", code="report.no_gears"))
     yield Paragraph(
-        case.say(
+        case.translate(
             _(
                 "$z$: numbers of teeth, $m$: module, $r$: pitch radii, $a$: centre distance, "
                 "$\\alpha$: pressure angle, $i$: ratio of the second wheel to the first with the "
@@ -86,16 +86,16 @@ def _listed(values: float | Sequence[float] | None, factor: float = 1.0) -> str:
 
 def _train(case: ReportContext, train: GearTrain) -> Iterator[Block]:
     """The table of the stopped carrier, and the equations that follow from it."""
-    say, wheels = case.say, list(train.ratios)
+    translate, wheels = case.translate, list(train.ratios)
     carrier = [train.carrier] if train.planetary else []
     held, frame = (link_label(name, case.language) for name in (train.carrier, "frame"))
-    stopped = [say(_("{carrier} stopped", carrier=held)), *map(written, train.ratios.values())]
+    stopped = [translate(_("{carrier} stopped", carrier=held)), *map(written, train.ratios.values())]
     rows = [(*stopped, "0") if carrier else tuple(stopped)]
     if carrier:
-        rows.append((say(_("all as one")), *["1"] * (len(wheels) + 1)))
+        rows.append((translate(_("all as one")), *["1"] * (len(wheels) + 1)))
     if speeds := train.speeds:
-        rows.append((say(_("{carrier} stopped", carrier=frame)), *map(written, speeds.values())))
-    caption = say(
+        rows.append((translate(_("{carrier} stopped", carrier=frame)), *map(written, speeds.values())))
+    caption = translate(
         _(
             "Speeds of the train {pairs} with the carrier ({carrier}) stopped, as shares of the first one",
             pairs=", ".join(train.pairs),
@@ -116,7 +116,7 @@ def _train(case: ReportContext, train: GearTrain) -> Iterator[Block]:
     if train.blocked:
         yield Paragraph(
             literal(
-                say(
+                translate(
                     _(
                         "{pairs} would give a wheel another ratio: the wheels cannot turn against the carrier.",
                         pairs=", ".join(train.blocked),
@@ -143,7 +143,7 @@ def _internal(sizes: WheelSizes) -> bool:
 
 def _teeth(case: ReportContext, same: Sequence[str], sizes: WheelSizes) -> Iterator[Block]:
     """Diameters and contact of equal pairs of gears."""
-    say, internal = case.say, _internal(sizes)
+    translate, internal = case.translate, _internal(sizes)
     assert sizes.teeth is not None and sizes.module is not None and sizes.pressure_angle is not None
     ends = list(zip(sizes.teeth, sizes.links, strict=True))
     (first, a), (second, b) = sorted(ends) if internal else ends
@@ -157,7 +157,7 @@ def _teeth(case: ReportContext, same: Sequence[str], sizes: WheelSizes) -> Itera
         yield Paragraph(literal(case.message(error)), "missing")
         return
     yield Paragraph(
-        say(
+        translate(
             _(
                 "Standard involute teeth (addendum 1 module, dedendum 1.25 modules), no profile "
                 "shift; $d$, $d_{b}$, $d_{a}$, $d_{f}$: diameters of the pitch, base, tip and root "
@@ -167,7 +167,7 @@ def _teeth(case: ReportContext, same: Sequence[str], sizes: WheelSizes) -> Itera
     )
     yield _diameters(case, mesh, names)
     yield Paragraph(
-        say(
+        translate(
             _(
                 "Contact ratio {ratio}, centre distance {distance} mm, pressure angle in mesh {angle}°.",
                 ratio=f"{mesh.contact_ratio:.4g}",
@@ -179,7 +179,7 @@ def _teeth(case: ReportContext, same: Sequence[str], sizes: WheelSizes) -> Itera
     for sentence in mesh.findings:
         yield Paragraph(literal(case.sentence(sentence)), "note")
     yield Figure(
-        say(_("Teeth of {pair} in mesh", pair=literal(", ".join(same)))),
+        translate(_("Teeth of {pair} in mesh", pair=literal(", ".join(same)))),
         ((mesh.draw(language=case.language).svg, 0.7),),
         tallest=110.0,
     )
@@ -218,18 +218,18 @@ def cams(case: ReportContext) -> Iterator[Block]:
         for finding in cam.findings():
             text = with_remedy(finding.message, finding.remedy)
             yield Paragraph(literal(case.sentence(text)), "note")
-        yield from numbers_and_way(CamDesign(cam), case.say, case.language, 3)
+        yield from numbers_and_way(CamDesign(cam), case.translate, case.language, 3)
 
 
 def _about(case: ReportContext, joint: CamJoint) -> str:
-    say = case.say
+    translate = case.translate
     motion = _("pivoted") if joint.side else _("guided")
     law = (
         _("The lift follows a motion program; numbers below are per turn of the cam.")
         if joint.program is not None
         else _("The lift is the smooth curve through {count} given points.", count=len(joint.angles))
     )
-    return say(
+    return translate(
         _(
             "{cam} moves {follower}, which is {motion}, through {touch}. ",
             cam=literal(joint.cam),
@@ -237,7 +237,7 @@ def _about(case: ReportContext, joint: CamJoint) -> str:
             motion=motion,
             touch=TOUCH[joint.touch],
         )
-    ) + say(law)
+    ) + translate(law)
 
 
 def _speed(case: ReportContext, joint: CamJoint) -> float:
@@ -267,8 +267,8 @@ def _program(case: ReportContext, program: MotionProgram, lift_unit: str) -> Blo
         _("no."),
         _("from $\\varphi$ / °"),
         _("to $\\varphi$ / °"),
-        case.say(_("lift from")) + f" / {lift_unit}",
-        case.say(_("lift to")) + f" / {lift_unit}",
+        case.translate(_("lift from")) + f" / {lift_unit}",
+        case.translate(_("lift to")) + f" / {lift_unit}",
         _("law"),
     )
     return printed(Table(head, rows, ">>>>><", _("Motion program")), case.language)

@@ -57,13 +57,13 @@ LINE = 36.0
 @section("method", _("Method"), 4.0)
 def method(case: ReportContext) -> Iterator[Block]:
     """Closure of every group as vectors, then the formulas of positions, rates and forces, without numbers."""
-    say, steps = case.say, list[Step]()
+    translate, steps = case.translate, list[Step]()
     case.require_position()
     try:
         solution = case.worked
     except LinkwrightError as error:
         yield Paragraph(
-            say(
+            translate(
                 _(
                     "The equations of the groups cannot be written here, their loops can: {sentence}",
                     sentence=literal(case.message(error)),
@@ -77,7 +77,7 @@ def method(case: ReportContext) -> Iterator[Block]:
             yield Paragraph(symbols(line))
     for number, group in enumerate(case.structure.groups, 1):
         links = literal(", ".join(group.links))
-        title = say(
+        title = translate(
             _("Step {number}: {signature}, links {links}", number=number, signature=group.signature, links=links)
         )
         own = (formulas(step) for step in steps if step.group == group.name)
@@ -94,7 +94,7 @@ def method(case: ReportContext) -> Iterator[Block]:
 def _loops(case: ReportContext, group: Group) -> Iterator[Block]:
     found = loops(case, group)
     if found:
-        yield Paragraph(case.say(_("Closure of its loops:")))
+        yield Paragraph(case.translate(_("Closure of its loops:")))
     for left, right in found:
         yield Formula((left, right))
 
@@ -157,7 +157,7 @@ def loops(case: ReportContext, group: Group) -> list[tuple[Row, Row]]:
 
     Rows of gears and racks are no loops: they stand among the formulas.
     """
-    book = SymbolTable(*case.worked_motion, case.say)
+    book = SymbolTable(*case.worked_motion, case.translate)
     found = []
     for closure in chain_closures(book, group):
         first, second = (_sum(chain) for chain in closure.chains)
@@ -199,15 +199,15 @@ CAPTIONS = {
 @section("worked", _("One position worked out"), 5.0)
 def worked_position(case: ReportContext) -> Iterator[Block]:
     """Every equation of the position with the numbers put in; polygons of velocities, accelerations and forces."""
-    say = case.say
+    translate = case.translate
     case.require_position()
     if case.worked_text:
-        yield Paragraph(say(_("The position {input} is worked out in full.", input=literal(case.worked_text))))
+        yield Paragraph(translate(_("The position {input} is worked out in full.", input=literal(case.worked_text))))
     try:
         yield from _solution(case.worked)
     except LinkwrightError as error:
         yield Paragraph(
-            say(
+            translate(
                 _(
                     "The equations with their numbers cannot be written here, the polygons can be drawn: {sentence}",
                     sentence=literal(case.message(error)),
@@ -215,7 +215,7 @@ def worked_position(case: ReportContext) -> Iterator[Block]:
             ),
             "missing",
         )
-    yield Heading(say(_("Polygons of this position")), 2)
+    yield Heading(translate(_("Polygons of this position")), 2)
     yield from _polygons(case)
 
 
@@ -243,16 +243,16 @@ def _polygons(case: ReportContext) -> Iterator[Block]:
         try:
             picture = case.diagram(kind, result, at=case.worked_place, **of)
         except LinkwrightError as error:
-            yield Paragraph(f"{case.say(title_of(kind))}: {literal(case.message(error))}", "missing")
+            yield Paragraph(f"{case.translate(title_of(kind))}: {literal(case.message(error))}", "missing")
             continue
         if len(links) > 1 and share_of(picture) < SMALL:
             half = len(links) // 2
             pages[:0] = [(kind, links[:half]), (kind, links[half:])]
             continue
-        caption = case.say(CAPTIONS[kind])
+        caption = case.translate(CAPTIONS[kind])
         again = kind in drawn
-        shown = case.say(_("{caption} (continued)", caption=caption)) if again else caption
-        yield to_scale(case.say, shown, picture, "" if again else kind)
+        shown = case.translate(_("{caption} (continued)", caption=caption)) if again else caption
+        yield to_scale(case.translate, shown, picture, "" if again else kind)
         drawn.append(kind)
 
 
@@ -274,11 +274,11 @@ def share_of(picture: str) -> float:
     return min(1.0, TEXT / wide, TALLEST / high)
 
 
-def to_scale(say: Translate, caption: str, picture: str, label: str = "") -> Figure:
+def to_scale(translate: Translate, caption: str, picture: str, label: str = "") -> Figure:
     """A picture in its own size, so that a millimetre is one; where it must be smaller the caption says so."""
     wide, share = natural_size(picture)[0] / PIXELS, share_of(picture)
     if share < 0.995:
-        caption = say(
+        caption = translate(
             _(
                 "{caption} (printed at {percent} % of the scale that it states)",
                 caption=caption,

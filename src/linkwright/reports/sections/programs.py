@@ -23,7 +23,7 @@ from linkwright.words import _, pgettext
 @section("flow", _("Flow chart of the solution"), 3.5)
 def flow(case: ReportContext) -> Iterator[Block]:
     """The steps of the solution over the numbered positions, in as many pages as they need."""
-    say, numbered = case.say, case.numbered
+    translate, numbered = case.translate, case.numbered
     nodes = flow_chart_steps(numbered.motion, numbered.rows, case.language)
     message = (
         _(
@@ -38,14 +38,14 @@ def flow(case: ReportContext) -> Iterator[Block]:
             "rrrf …)."
         )
     )
-    yield Paragraph(say(message.format(figure="[[flow]]")))
-    caption = say(_("Flow chart of the solution"))
+    yield Paragraph(translate(message.format(figure="[[flow]]")))
+    caption = translate(_("Flow chart of the solution"))
     pages = flow_chart_pages(nodes, caption)
     for number, svg in enumerate(pages, 1):
         shown = (
             caption
             if len(pages) == 1
-            else say(_("{caption} ({number} of {count})", caption=caption, number=number, count=len(pages)))
+            else translate(_("{caption} ({number} of {count})", caption=caption, number=number, count=len(pages)))
         )
         yield Figure(shown, ((svg, own_share(svg)),), "flow" if number == 1 else "", TALLEST)
 
@@ -60,14 +60,14 @@ KINDS = {
 @section("calls", _("Calls of the teaching subprograms"), 14.0, optional=True)
 def subprogram_calls(case: ReportContext) -> Iterator[Block]:
     """Numbering, the calls in solving order, a table of formal and actual arguments for every subprogram."""
-    say = case.say
+    translate = case.translate
     numbered = case.numbered
     forces = case.mechanism.has_loads
     made = calls(plan(numbered.motion, numbered.rows), case.heads.numbers, forces=forces)
     if not made.motion:
         raise Missing(_("no group of this machine has a subprogram of these texts", code="calls.none"))
     yield Paragraph(
-        say(
+        translate(
             _(
                 "The machine in the subprograms of the teaching texts (bark for a bar, rrrk to rppk "
                 "for the motion of the five dyads, barf and rrrf to rppf for their joint forces). "
@@ -85,8 +85,8 @@ def subprogram_calls(case: ReportContext) -> Iterator[Block]:
         (_("Joint forces, from the last group to the first"), _("calls for the joint forces"), made.forces),
     ):
         if group:
-            yield Heading(say(title), 2)
-            yield Code(_program(group), "", say(program))
+            yield Heading(translate(title), 2)
+            yield Code(_program(group), "", translate(program))
             yield from _tables(case, group)
     for note in dict.fromkeys(map(str, made.notes)):
         message = next(each for each in made.notes if str(each) == note)
@@ -94,10 +94,10 @@ def subprogram_calls(case: ReportContext) -> Iterator[Block]:
 
 
 def _points(case: ReportContext, points: Sequence[NumberedPoint]) -> Block:
-    say = case.say
+    translate = case.translate
     rows = []
     for point in points:
-        links = ", ".join(say(_("frame")) if link == "frame" else link for link in point.links)
+        links = ", ".join(translate(_("frame")) if link == "frame" else link for link in point.links)
         place = "–" if point.place is None else f"({length(point.place.real)}, {length(point.place.imag)})"
         rows.append((point.number, case.sentence(point.name), links, place))
     head = (_("n"), _("point"), pgettext("calls", "on"), _("fixed place / m"))
@@ -106,12 +106,12 @@ def _points(case: ReportContext, points: Sequence[NumberedPoint]) -> Block:
 
 def _links(case: ReportContext, made: Calls) -> Block:
     """Links, and guides that need a direction of their own; masses where forces are found."""
-    say, width = case.say, 5 if made.forces else 3
+    translate, width = case.translate, 5 if made.forces else 3
     rows = []
     for link in sorted(made.links, key=lambda each: each.number):
         part = case.mechanism.links.get(link.name)
         mass, inertia = (length(part.mass), length(part.inertia)) if part else ("–", "–")
-        name = link.name if part else say(_("direction of guide {guide}", guide=link.name))
+        name = link.name if part else translate(_("direction of guide {guide}", guide=link.name))
         cells = (str(link.number), name, _direction(case, link), mass, inertia)
         rows.append(tuple(map(typeset, cells[:width])))
     head = (_("k"), _("link"), _("t(k)"), _("mass / kg"), _("moment of inertia / kg·m²"))[:width]
@@ -120,35 +120,39 @@ def _links(case: ReportContext, made: Calls) -> Block:
 
 def _direction(case: ReportContext, link: NumberedLink) -> str:
     """What t(k) of a link is."""
-    say = case.say
+    translate = case.translate
     if link.line is not None:
-        return say(_("from point {first} to {second}", first=link.line[0], second=link.line[1]))
+        return translate(_("from point {first} to {second}", first=link.line[0], second=link.line[1]))
     if link.along:
-        return say(_("along guide {guide}", guide=link.along))
+        return translate(_("along guide {guide}", guide=link.along))
     if link.name in case.mechanism.links:
-        return say(_("x axis of the link"))
+        return translate(_("x axis of the link"))
     if not link.against:
-        return say(_("{angle} rad, constant", angle=length(link.angle)))
-    return say(_("t({link}) + {angle} rad", angle=length(link.angle), link=link.against))
+        return translate(_("{angle} rad, constant", angle=length(link.angle)))
+    return translate(_("t({link}) + {angle} rad", angle=length(link.angle), link=link.against))
 
 
 def _others(case: ReportContext, made: Calls) -> Iterator[Paragraph]:
     """Which steps have no call, and why; once for each reason."""
-    say = case.say
+    translate = case.translate
     groups: dict[str, list[str]] = {}
     for step in made.others:
-        reason: str = say(KINDS[step.kind]) if step.kind else case.sentence(step.reason)
+        reason: str = translate(KINDS[step.kind]) if step.kind else case.sentence(step.reason)
         groups.setdefault(reason, []).append(
-            say(_("{signature} ({links})", signature=step.group.signature, links=", ".join(step.group.links)))
+            translate(_("{signature} ({links})", signature=step.group.signature, links=", ".join(step.group.links)))
         )
     for reason, named in groups.items():
-        message = say(
-            _("No subprogram of these texts for {groups}: {reason}.", groups=say(_(", ")).join(named), reason=reason)
+        message = translate(
+            _(
+                "No subprogram of these texts for {groups}: {reason}.",
+                groups=translate(_(", ")).join(named),
+                reason=reason,
+            )
         )
         yield Paragraph(literal(message), "note")
     if made.forces and any(not step.kind for step in made.others):
         yield Paragraph(
-            say(
+            translate(
                 _(
                     "What groups without a subprogram exert on the links of the others is not in the "
                     "calls for the joint forces; it is added as a force at a point (nn)."
@@ -176,15 +180,17 @@ def _tables(case: ReportContext, group: Sequence[Call]) -> Iterator[Block]:
 @section("program", _("Program listing"), 14.5, optional=True)
 def program(case: ReportContext) -> Iterator[Block]:
     """The program, at the positions of the tables."""
-    say, numbered = case.say, case.numbered
+    translate, numbered = case.translate, case.numbered
     try:
         forces: Forces | None = case.numbered_forces
     except LinkwrightError:
         forces = None
-    listing = Listing(numbered.motion, forces, say, rows=numbered.rows, source=case.source, language=case.language)
+    listing = Listing(
+        numbered.motion, forces, translate, rows=numbered.rows, source=case.source, language=case.language
+    )
     text = listing.text()
     yield Paragraph(
-        say(
+        translate(
             _(
                 "The program solves the machine at the {count} positions of the tables, group by "
                 "group in solving order, with the functions of linkwright.dyads, and prints every "
@@ -196,7 +202,7 @@ def program(case: ReportContext) -> Iterator[Block]:
     )
     if listing.plan.others:
         yield Paragraph(
-            say(
+            translate(
                 _(
                     "Groups of which there is no such function are solved by the library; the model file "
                     "has to be where the program runs."
@@ -204,4 +210,4 @@ def program(case: ReportContext) -> Iterator[Block]:
             ),
             "note",
         )
-    yield Code(text, "python", say(_("the machine solved with linkwright.dyads")), "program")
+    yield Code(text, "python", translate(_("the machine solved with linkwright.dyads")), "program")

@@ -38,9 +38,11 @@ CAPTIONS = {
 @section("reactions", _("Joint forces"), 8.0, optional=True)
 def reactions(case: ReportContext) -> Iterator[Block]:
     """Sizes of all joint forces, the largest of each, and their hodographs."""
-    say, _unused = case.say, case.forces
+    translate, _unused = case.translate, case.forces
     yield Paragraph(
-        say(_("The force of every joint, found group by group in reverse order; the other link feels the reverse."))
+        translate(
+            _("The force of every joint, found group by group in reverse order; the other link feels the reverse.")
+        )
     )
     peaks = [row for row in case.metrics if row.metric == "peak_reaction"]
     rows: list[list[Cell]] = [
@@ -57,7 +59,7 @@ def reactions(case: ReportContext) -> Iterator[Block]:
     if rubbing := rubbing_guides(case.mechanism):
         yield Paragraph(
             literal(
-                say(
+                translate(
                     _(
                         "The force in a guide is what presses its parts together; its friction, μ times "
                         "that, along the guide, comes on top: {names}",
@@ -103,14 +105,14 @@ def _figures(
     case: ReportContext, kind: str, parts: list[list[str]], shares: list[float], tallest: float
 ) -> Iterator[Block]:
     """A figure of some joints each, or why there is none."""
-    caption = case.say(CAPTIONS[kind])
+    caption = case.translate(CAPTIONS[kind])
     for number, (joints, share) in enumerate(zip(parts, shares, strict=True)):
         try:
             picture = case.diagram(kind, of=joints)
         except LinkwrightError as error:
-            yield Paragraph(f"{case.say(title_of(kind))}: {literal(case.message(error))}", "missing")
+            yield Paragraph(f"{case.translate(title_of(kind))}: {literal(case.message(error))}", "missing")
             continue
-        title = case.say(_("{caption} (continued)", caption=caption)) if number else caption
+        title = case.translate(_("{caption} (continued)", caption=caption)) if number else caption
         yield Figure(title, ((picture, share),), "" if number else kind, tallest)
 
 
@@ -126,7 +128,7 @@ def balance(case: ReportContext) -> Iterator[Block]:
                 code="report.no_balance",
             )
         )
-    yield from step_blocks(balance_step(found, "1", case.say))
+    yield from step_blocks(balance_step(found, "1", case.translate))
 
 
 #: Height of a figure, mm, that a page has room for, and of the pictures below the text that begins the section.
@@ -136,11 +138,11 @@ PAGE, FIRST = 228.0, 178.0
 @section("free_bodies", _("Free-body diagrams"), 8.45, optional=True)
 def free_bodies(case: ReportContext) -> Iterator[Block]:
     """All that acts on each link, drawn and in numbers."""
-    say = case.say
+    translate = case.translate
     forces, index = case.worked_result
     if not isinstance(forces, Forces):
         raise Missing(NO_LOADS)
-    pages = free_body_pages(forces, index, say, case.language, first=FIRST)
+    pages = free_body_pages(forces, index, translate, case.language, first=FIRST)
     place = literal(case.worked_text)
     message = (
         _(
@@ -155,14 +157,14 @@ def free_bodies(case: ReportContext) -> Iterator[Block]:
             "exerts on link 2."
         )
     )
-    yield Paragraph(say(message.format(figure="[[free-bodies]]", place=place)))
+    yield Paragraph(translate(message.format(figure="[[free-bodies]]", place=place)))
     if idle := idle_loads(forces, index):
-        yield Paragraph(literal(say(_("Not acting at this position: {names}.", names=", ".join(idle)))), "note")
-    caption = say(_("Free-body diagrams of the links"))
+        yield Paragraph(literal(translate(_("Not acting at this position: {names}.", names=", ".join(idle)))), "note")
+    caption = translate(_("Free-body diagrams of the links"))
     for number, svg in enumerate(pages, 1):
         shown = (
             caption
             if len(pages) == 1
-            else say(_("{caption} ({number} of {count})", caption=caption, number=number, count=len(pages)))
+            else translate(_("{caption} ({number} of {count})", caption=caption, number=number, count=len(pages)))
         )
         yield Figure(shown, ((svg, own_share(svg)),), "free-bodies" if number == 1 else "", PAGE)

@@ -66,7 +66,7 @@ def _titles(source: str, case: ReportContext) -> str:
     if case.language == "en":
         return source
     titles = [part.partition(": ")[0] for part in source.split("; ") if part[0].isupper()]
-    return "; ".join(titles) or case.say(_("derived in this report"))
+    return "; ".join(titles) or case.translate(_("derived in this report"))
 
 
 def _of_group(signature: str) -> list[str]:
@@ -82,16 +82,16 @@ def _of_group(signature: str) -> list[str]:
 @section("errata", _("Mistakes of the source"), 13.0, optional=True)
 def errata(case: ReportContext) -> Iterator[Block]:
     """What is printed in the source, what is right, and why."""
-    say, found = case.say, case.settings.errata
+    translate, found = case.translate, case.settings.errata
     if not found:
         raise Missing(_("the file tells of no mistakes of its source", code="report.no_errata"))
-    yield from errata_blocks(found, case.origin, say)
+    yield from errata_blocks(found, case.origin, translate)
 
 
-def errata_blocks(found: Sequence[Erratum], source: str, say: Translate) -> Iterator[Block]:
+def errata_blocks(found: Sequence[Erratum], source: str, translate: Translate) -> Iterator[Block]:
     """The mistakes of a source as a table."""
     yield Paragraph(
-        say(
+        translate(
             _(
                 "The numbers of the source ({source}) were compared with those of this report. Where they differ:",
                 source=literal(source or "–"),
@@ -100,4 +100,4 @@ def errata_blocks(found: Sequence[Erratum], source: str, say: Translate) -> Iter
     )
     rows = [(e.where, e.printed, e.right, e.why) for e in found]
     table = Table((_("where"), _("printed"), _("right"), _("why")), rows, "<<<<", _("Mistakes of the source"))
-    yield printed(table, language_of(say), "errata")
+    yield printed(table, language_of(translate), "errata")

@@ -28,25 +28,25 @@ from linkwright.words.message import in_language
 @section("structure", _("Structure analysis"), 3.0)
 def blocks(case: ReportContext) -> Iterator[Block]:
     """Mobility, Assur groups in solving order, class of the mechanism."""
-    say, built = case.say, case.structure
+    translate, built = case.translate, case.structure
     first, *rest = (in_language(each, case.language) for each in built.tables(case.language)[0].notes)
-    yield Paragraph(symbols(first) + say(_(".")))
+    yield Paragraph(symbols(first) + translate(_(".")))
     yield _mobility(case)
     for line in rest[1:]:
         yield Paragraph(literal(line))
     sentence = rank_sentence(case.mechanism, case.language)
     if sentence:
-        yield Paragraph(say(_("{sentence}.", sentence=literal(sentence))))
+        yield Paragraph(translate(_("{sentence}.", sentence=literal(sentence))))
     yield _groups(case)
     if len(built.groups) > 1:
         yield _pictures(case)
     chain = " + ".join(group.signature for group in built.groups)
     yield Paragraph(
-        say(
+        translate(
             _(
                 "The mechanism is the frame with {chain} ({table}); it is a mechanism of class {level}.",
                 chain=literal(chain),
-                level=numeral(built.mechanism_class, say),
+                level=numeral(built.mechanism_class, translate),
                 table="[[groups]]",
             )
         )
@@ -60,7 +60,9 @@ def _pictures(case: ReportContext) -> Block:
     except LinkwrightError as error:
         return Paragraph(literal(case.message(error)), "missing")
     names = ", ".join(f"{n} {group.signature}" for n, group in enumerate(case.structure.groups, 1))
-    caption = case.say(_("The groups, separated from the machine, in solving order: {names}", names=literal(names)))
+    caption = case.translate(
+        _("The groups, separated from the machine, in solving order: {names}", names=literal(names))
+    )
     return Figure(caption, pictures, "group-pictures")
 
 
@@ -83,7 +85,7 @@ def _groups(case: ReportContext) -> Block:
         outer = ", ".join(dict.fromkeys(c.joint for c in each.outer_joints))
         inner = ", ".join(dict.fromkeys(c.joint for c in each.inner_joints))
         kind = _("driven link") if each.assur_class == 1 and each.drivers else each.signature
-        level = numeral(each.assur_class, case.say)
+        level = numeral(each.assur_class, case.translate)
         rows.append([number, kind, ", ".join(each.links), level, each.assur_order, outer, inner or "–"])
     head = (
         _("step"),

@@ -34,13 +34,13 @@ def blocks(case: ReportContext) -> Iterator[Block]:
     yield from of_task(case.source, case.language)
 
 
-def task_chapter(task: TaskFile, own: Settings, say: Translate, language: str) -> Iterator[Block | OwnText]:
+def task_chapter(task: TaskFile, own: Settings, translate: Translate, language: str) -> Iterator[Block | OwnText]:
     """The chapter of a file that holds a task alone, under a heading with its name."""
     yield Heading(literal(task.name), 1)
     if purpose := own.purpose or task.purpose:
         yield Paragraph(literal(purpose))
     if source := own.source or task.source:
-        yield Paragraph(say(_("Source: {source}.", source=literal(source))))
+        yield Paragraph(translate(_("Source: {source}.", source=literal(source))))
     if "synthesis" in own.text:
         yield OwnText(own.text["synthesis"])
     yield from of_task(task.file, language)
@@ -55,14 +55,14 @@ def of_task(source: str, language: str) -> Iterator[Block]:
     except SynthesisError as error:
         if error.nearest is None or not len(error.nearest):
             raise
-        yield Paragraph(literal(error.say(language)), "missing")
+        yield Paragraph(literal(error.translate(language)), "missing")
         found = error.nearest
     yield from _chapter(found, language)
 
 
 def _chapter(found: Synthesis, language: str) -> Iterator[Block]:
     """All steps with their pictures, the best candidates drawn, and the notes."""
-    say, solution = speaker(language), found.worked(language)
+    translate, solution = speaker(language), found.worked(language)
     for step in solution.steps:
         yield Heading(symbols(step.title), 2)
         yield from step_blocks(step)
@@ -72,7 +72,7 @@ def _chapter(found: Synthesis, language: str) -> Iterator[Block]:
     if found.counts:
         from linkwright.synthesis.result import counts_text
 
-        yield Paragraph(literal(counts_text(found, say)))
+        yield Paragraph(literal(counts_text(found, translate)))
     for sentence in found.notes:
         yield Paragraph(literal(in_language(sentence, language)))
 
@@ -83,16 +83,16 @@ def _figure(found: Synthesis, kind: str, language: str) -> Iterator[Block]:
 
     if not RESULT_DIAGRAMS[kind].suits(found):
         return
-    say = speaker(language)
+    translate = speaker(language)
     try:
         shown = picture(found.plot(kind, language=language, title=""))
     except LinkwrightError as error:
-        yield Paragraph(literal(error.say(language)), "missing")
+        yield Paragraph(literal(error.translate(language)), "missing")
         return
     if RESULT_DIAGRAMS[kind].to_scale:
-        yield to_scale(say, say(CAPTIONS[kind]), shown)
+        yield to_scale(translate, translate(CAPTIONS[kind]), shown)
     else:
-        yield Figure(say(CAPTIONS[kind]), ((shown, _width(found, kind)),))
+        yield Figure(translate(CAPTIONS[kind]), ((shown, _width(found, kind)),))
 
 
 def _width(found: Synthesis, kind: str) -> float:

@@ -64,16 +64,16 @@ KINDS: Mapping[str, Message] = {
 @section("task", _("Task and data"), 1.0)
 def task(case: ReportContext) -> Iterator[Block]:
     """What the machine is for, and everything that is given about it."""
-    say, mechanism = case.say, case.mechanism
+    translate, mechanism = case.translate, case.mechanism
     if case.purpose:
         yield Paragraph(literal(case.purpose))
     if case.origin:
-        yield Paragraph(say(_("Source: {source}.", source=literal(case.origin))))
+        yield Paragraph(translate(_("Source: {source}.", source=literal(case.origin))))
     data = to_data(mechanism)
     yield _points(case)
     yield _links(case)
     if mechanism.parameters:
-        rows = [(name, written(value, say)) for name, value in data["parameters"].items()]
+        rows = [(name, written(value, translate)) for name, value in data["parameters"].items()]
         yield printed(Table((_("name"), _("value")), rows, "<>", _("Parameters")), case.language)
     drivers = {"driver": data["driver"]} if "driver" in data else data.get("drivers", {})
     for title, part in (
@@ -82,12 +82,12 @@ def task(case: ReportContext) -> Iterator[Block]:
         (_("Loads"), data.get("loads", {})),
     ):
         if part:
-            body = [(name, kind_of(value, say), element_data(value, say)) for name, value in part.items()]
+            body = [(name, kind_of(value, translate), element_data(value, translate)) for name, value in part.items()]
             head = (_("name"), _("kind"), pgettext("report", "given"))
             yield printed(Table(head, body, "<<<", title), case.language)
     if any(mechanism.gravity):
         x, y = (f"{value:g}" for value in mechanism.gravity)
-        yield Paragraph(say(_("Gravity acts with ({x}; {y}) m/s².", x=x, y=y)))
+        yield Paragraph(translate(_("Gravity acts with ({x}; {y}) m/s².", x=x, y=y)))
 
 
 def _points(case: ReportContext) -> Block:
@@ -130,45 +130,45 @@ def _or_dash(value: float) -> str:
     return f"{value:.6g}" if value else "–"
 
 
-def kind_of(value: Any, say: Translate) -> str:
+def kind_of(value: Any, translate: Translate) -> str:
     """The kind of a joint, a load, or a driver's law, in words; of another package by its own name."""
     kind = str(value.get("kind", "")) or next((law for law in LAWS if law in value), "")
     if kind in KINDS:
-        return say(KINDS[kind])
-    return say(PAIRS[kind]) if kind in PAIRS else kind or "–"
+        return translate(KINDS[kind])
+    return translate(PAIRS[kind]) if kind in PAIRS else kind or "–"
 
 
-def element_data(value: Any, say: Translate) -> str:
+def element_data(value: Any, translate: Translate) -> str:
     """What the model file says of a joint, a driver or a load, but its kind."""
-    return written({key: each for key, each in value.items() if key != "kind"}, say)
+    return written({key: each for key, each in value.items() if key != "kind"}, translate)
 
 
-def written(value: Any, say: Translate, key: str = "") -> str:
+def written(value: Any, translate: Translate, key: str = "") -> str:
     """A value of a model file in one line, keys in words, angles in degrees, lengths in mm, six digits; long lists by
     their ends."""
     if isinstance(value, Mapping):
         parts = [
-            say(_("{name}: {value}", name=MODEL_KEYS.get(name, name), value=text))
-            for name, text in ((name, written(each, say, name)) for name, each in value.items())
+            translate(_("{name}: {value}", name=MODEL_KEYS.get(name, name), value=text))
+            for name, text in ((name, written(each, translate, name)) for name, each in value.items())
         ]
         if not key:
-            return say(_("; ")).join(parts)
-        listed = say(pgettext("given", ", ")).join(parts)
-        return say(_("({parts})", parts=listed))
+            return translate(_("; ")).join(parts)
+        listed = translate(pgettext("given", ", ")).join(parts)
+        return translate(_("({parts})", parts=listed))
     if isinstance(value, list | tuple):
-        shown = [written(each, say, key) for each in value]
+        shown = [written(each, translate, key) for each in value]
         if len(shown) > LONGEST:
             shown = [*shown[:3], f"… ({len(shown)}) …", shown[-1]]
         return "[" + ", ".join(shown) + "]"
-    return _word(str(value), key, say) or _rounded(str(value))
+    return _word(str(value), key, translate) or _rounded(str(value))
 
 
-def _word(text: str, key: str, say: Translate) -> str:
+def _word(text: str, key: str, translate: Translate) -> str:
     """A value that is a word of the model language; empty for names, numbers and expressions."""
     if key == "law" and text in LABELS:
-        return say(LABELS[text])
+        return translate(LABELS[text])
     known = (text == "frame" or key in CHOICES) and text in VALUES
-    return say(VALUES[text]) if known else ""
+    return translate(VALUES[text]) if known else ""
 
 
 def _rounded(text: str) -> str:
@@ -192,10 +192,10 @@ WIDE, TALLEST = 0.85, 104.0
 @section("drawing", _("Kinematic drawing"), 2.0)
 def drawing(case: ReportContext) -> Iterator[Block]:
     """The machine at the worked position, and its limit positions."""
-    say = case.say
+    translate = case.translate
     motion, index = case.worked_motion
     yield Paragraph(
-        say(
+        translate(
             _(
                 "The machine in the standard symbols is shown in {figure}, at the position that is worked out below.",
                 figure="[[drawing]]",
@@ -212,10 +212,10 @@ def drawing(case: ReportContext) -> Iterator[Block]:
         return limits.svg
 
     loaded = any(link.mass for link in case.mechanism.links.values()) or bool(case.mechanism.loads)
-    caption = say(_("Kinematic drawing with mass centres and loads") if loaded else _("Kinematic drawing"))
+    caption = translate(_("Kinematic drawing with mass centres and loads") if loaded else _("Kinematic drawing"))
     yield Figure(caption, ((font_scaling(shown, WIDE, TALLEST), WIDE),), "drawing", TALLEST)
     try:
         limits = font_scaling(faded, WIDE, TALLEST)
     except LinkwrightError:
         return
-    yield Figure(say(_("Limit positions of the output, dashed")), ((limits, WIDE),), "limit-drawing", TALLEST)
+    yield Figure(translate(_("Limit positions of the output, dashed")), ((limits, WIDE),), "limit-drawing", TALLEST)

@@ -41,16 +41,16 @@ _NO_CAM = _(
 def cam(subject: Subject) -> Content:
     """The panels of a cam: of a calculation, or of a joint of a mechanism (``subject.of``)."""
     design = _design(subject)
-    say, paper = subject.say, subject.settings.paper
+    translate, paper = subject.translate, subject.settings.paper
     barrel = design.cam.barrel_radius is not None
-    profile = DevelopmentPanel(design, say) if barrel else ProfilePanel(design, say)
+    profile = DevelopmentPanel(design, translate) if barrel else ProfilePanel(design, translate)
     large = paper.size in ("A0", "A1")
     wide = profile.extent[0] > _WIDE * profile.extent[1]
     panels = (
-        MotionPanel(design, say, _MOTION * min(paper.frame.width, paper.frame.height)),
+        MotionPanel(design, translate, _MOTION * min(paper.frame.width, paper.frame.height)),
         profile,
-        data_table(design, say, 2 if wide else 1),
-        points_table(design, say, TEXT if large else MIN_TEXT, 14 if wide else 10),
+        data_table(design, translate, 2 if wide else 1),
+        points_table(design, translate, TEXT if large else MIN_TEXT, 14 if wide else 10),
     )
     return Content(panels)
 
@@ -111,45 +111,45 @@ _PARTS = 3
 WAYS = {"rise": pgettext("cam_sheet", "rise"), "fall": _("return"), "dwell": pgettext("cam_sheet", "dwell")}
 
 
-def data_table(design: CamDesign, say: Translate, parts: int) -> TablePanel:
+def data_table(design: CamDesign, translate: Translate, parts: int) -> TablePanel:
     """Motion, sizes and checks of a cam: name, symbol, value; in so many parts side by side."""
-    head = [say(key) for key in (_("quantity"), _("symbol"), _("value"))]
-    rows = [*_motion(design, say), *_sizes(design, say), *_checks(design, say)]
-    return TablePanel("table_data", 2.0, head, rows, say(_("Data of the cam")), parts=parts)
+    head = [translate(key) for key in (_("quantity"), _("symbol"), _("value"))]
+    rows = [*_motion(design, translate), *_sizes(design, translate), *_checks(design, translate)]
+    return TablePanel("table_data", 2.0, head, rows, translate(_("Data of the cam")), parts=parts)
 
 
-def _row(say: Translate, name: Message, symbol: Words, value: float, unit: str) -> Row:
+def _row(translate: Translate, name: Message, symbol: Words, value: float, unit: str) -> Row:
     gap = "" if unit in ("", "°") else " "
-    return [say(name), symbol, f"{significant(value, 5)}{gap}{unit}"]
+    return [translate(name), symbol, f"{significant(value, 5)}{gap}{unit}"]
 
 
-def _motion(design: CamDesign, say: Translate) -> Iterator[Row]:
+def _motion(design: CamDesign, translate: Translate) -> Iterator[Row]:
     cam = design.cam
     low, high = cam.program.lifts
     if cam.follower.oscillating:
-        yield _row(say, _("swing of the follower"), indexed("ψ", "max"), math.degrees(high - low), "°")
+        yield _row(translate, _("swing of the follower"), indexed("ψ", "max"), math.degrees(high - low), "°")
     else:
-        yield _row(say, _("lift"), "h", 1e3 * (high - low), "mm")
+        yield _row(translate, _("lift"), "h", 1e3 * (high - low), "mm")
     for number, phase in enumerate(phases(cam.program), 1):
-        yield _phase(phase, number, say)
+        yield _phase(phase, number, translate)
     if isinstance(cam.program, FoundProgram):
-        yield [say(_("motion")), "", say(_("found from points and windows"))]
-    sense = say(_("counter-clockwise") if cam.turn > 0 else _("clockwise"))
+        yield [translate(_("motion")), "", translate(_("found from points and windows"))]
+    sense = translate(_("counter-clockwise") if cam.turn > 0 else _("clockwise"))
     if design.loading.speed:
         speed = f"{significant(design.loading.speed * 30 / math.pi, 5)} r/min"
-        yield [say(_("speed of the cam")), "n", f"{speed}, {sense}"]
+        yield [translate(_("speed of the cam")), "n", f"{speed}, {sense}"]
     else:
-        yield [say(_("cam turns")), "", sense]
+        yield [translate(_("cam turns")), "", sense]
 
 
-def _phase(phase: Phase, number: int, say: Translate) -> Row:
+def _phase(phase: Phase, number: int, translate: Translate) -> Row:
     """The angle of a phase, and its law where it moves."""
     symbol: Words = indexed(*phase.symbol) if phase.symbol[0] else indexed("δ", str(number))
-    name = say(_named(phase))
+    name = translate(_named(phase))
     degrees = f"{significant(math.degrees(phase.angle), 5)}°"
     if phase.way == "dwell":
         return [name, symbol, degrees]
-    laws = ", ".join(say(LABELS[law]) if law in LABELS else law for law in phase.laws)
+    laws = ", ".join(translate(LABELS[law]) if law in LABELS else law for law in phase.laws)
     return [name, symbol, f"{degrees}, {laws}"]
 
 
@@ -159,40 +159,44 @@ def _named(phase: Phase) -> Message:
     return WAYS[phase.way]
 
 
-def _sizes(design: CamDesign, say: Translate) -> Iterator[Row]:
+def _sizes(design: CamDesign, translate: Translate) -> Iterator[Row]:
     cam, follower = design.cam, design.cam.follower
     base = cam.base_radius or 0.0
     if cam.barrel_radius is not None:
-        yield _row(say, _("radius of the barrel"), "R", 1e3 * cam.barrel_radius, "mm")
+        yield _row(translate, _("radius of the barrel"), "R", 1e3 * cam.barrel_radius, "mm")
     elif follower.kind == "roller":
         yield _row(
-            say, _("prime circle (to roller centre)"), indexed("r", "0"), 1e3 * (base + follower.roller_radius), "mm"
+            translate,
+            _("prime circle (to roller centre)"),
+            indexed("r", "0"),
+            1e3 * (base + follower.roller_radius),
+            "mm",
         )
-        yield _row(say, _("base circle (of the profile)"), indexed("r", "b"), 1e3 * base, "mm")
+        yield _row(translate, _("base circle (of the profile)"), indexed("r", "b"), 1e3 * base, "mm")
     else:
-        yield _row(say, _("base circle"), indexed("r", "0"), 1e3 * base, "mm")
+        yield _row(translate, _("base circle"), indexed("r", "0"), 1e3 * base, "mm")
     if follower.kind == "roller":
-        yield _row(say, _("roller radius"), indexed("r", "r"), 1e3 * follower.roller_radius, "mm")
+        yield _row(translate, _("roller radius"), indexed("r", "r"), 1e3 * follower.roller_radius, "mm")
     if follower.oscillating:
-        yield _row(say, _("cam centre to pivot"), "l", 1e3 * (follower.pivot_distance or 0.0), "mm")
+        yield _row(translate, _("cam centre to pivot"), "l", 1e3 * (follower.pivot_distance or 0.0), "mm")
         if follower.kind == "flat":
-            yield _row(say, _("offset of the face"), "f", 1e3 * follower.face_offset, "mm")
+            yield _row(translate, _("offset of the face"), "f", 1e3 * follower.face_offset, "mm")
         else:
-            yield _row(say, _("arm of the follower"), indexed("l", "r"), 1e3 * (follower.arm or 0.0), "mm")
+            yield _row(translate, _("arm of the follower"), indexed("l", "r"), 1e3 * (follower.arm or 0.0), "mm")
         yield _row(
-            say,
+            translate,
             _("angle of the arm at zero lift"),
             indexed("ψ", "0"),
             math.degrees(follower.start_angle(base) or 0.0),
             "°",
         )
     elif follower.kind != "flat" and follower.offset:
-        yield _row(say, _("offset"), "e", 1e3 * follower.offset, "mm")
+        yield _row(translate, _("offset"), "e", 1e3 * follower.offset, "mm")
     if design.face is not None:
-        yield _row(say, _("width of face in use"), "b", 1e3 * (design.face[1] - design.face[0]), "mm")
+        yield _row(translate, _("width of face in use"), "b", 1e3 * (design.face[1] - design.face[0]), "mm")
 
 
-def _checks(design: CamDesign, say: Translate) -> Iterator[Row]:
+def _checks(design: CamDesign, translate: Translate) -> Iterator[Row]:
     limits = design.cam.limits
     fall = limits.pressure_angle if limits.pressure_angle_fall is None else limits.pressure_angle_fall
     for name, extreme, limit in (
@@ -202,10 +206,10 @@ def _checks(design: CamDesign, say: Translate) -> Iterator[Row]:
         if extreme.value:
             value = f"{significant(abs(math.degrees(extreme.value)), 4)}°"
             value += "" if limit is None else f",  [α] = {significant(math.degrees(limit))}°"
-            yield [say(name), indexed("α", "max"), value]
+            yield [translate(name), indexed("α", "max"), value]
     if design.smallest_radius is not None:
         yield _row(
-            say, _("minimum radius of curvature"), indexed("ρ", "min"), 1e3 * design.smallest_radius.value, "mm"
+            translate, _("minimum radius of curvature"), indexed("ρ", "min"), 1e3 * design.smallest_radius.value, "mm"
         )
 
 
@@ -219,16 +223,16 @@ class PointsTable(TablePanel):
         return replace(table, caption=(*table.caption, self.note))
 
 
-def points_table(design: CamDesign, say: Translate, letters: float, tall: int) -> PointsTable:
+def points_table(design: CamDesign, translate: Translate, letters: float, tall: int) -> PointsTable:
     """Lift, pitch curve, profile and pressure angle at the divided angles, in parts side by side of at most
     ``tall`` rows, as far as the paper is wide enough; ``letters``: their height, mm."""
     head, rows = _points(design)
     parts = min(_PARTS, math.ceil(len(rows) / tall))
-    found = PointsTable("table_points", 3.0, head, rows, say(_("Divided angles, axes of the cam")), parts=parts)
+    found = PointsTable("table_points", 3.0, head, rows, translate(_("Divided angles, axes of the cam")), parts=parts)
     found.letters = letters
-    found.note = joined("x, y ", say(_("profile")))
+    found.note = joined("x, y ", translate(_("profile")))
     if design.cam.follower.kind == "roller":
-        pitch = joined(indexed("x", "0"), ", ", indexed("y", "0"), " ", say(_("pitch curve")))
+        pitch = joined(indexed("x", "0"), ", ", indexed("y", "0"), " ", translate(_("pitch curve")))
         found.note = joined(pitch, ";  ", found.note)
     return found
 

@@ -57,9 +57,9 @@ def _requirements(w: Writer, d: FunctionDerivation) -> None:
     step = w.step(pgettext("synthesis_steps", "Given"))
     places = w.found.error_name == "length"
     outputs = w.lengths(d.outputs) if places else degrees(d.outputs)
-    step.say(w.say(_("{count} pairs of input φ and output.", count=len(d.inputs))))
+    step.note(w.translate(_("{count} pairs of input φ and output.", count=len(d.inputs))))
     columns = [
-        (w.say(_("pair")), numbers(len(d.inputs))),
+        (w.translate(_("pair")), numbers(len(d.inputs))),
         ("φ / °", degrees(d.inputs)),
         (w.over("s") if places else "ψ / °", outputs),
     ]
@@ -69,8 +69,8 @@ def _requirements(w: Writer, d: FunctionDerivation) -> None:
     for index, free, zero in zip(("φ", "ψ"), d.free, d.zeros, strict=True):
         of_slider = places and index == "ψ"
         if free:
-            step.say(
-                w.say(
+            step.note(
+                w.translate(
                     (
                         _("The zero of the slider's place is free.")
                         if of_slider
@@ -87,7 +87,7 @@ def _requirements(w: Writer, d: FunctionDerivation) -> None:
 # Freudenstein's equation ------------------------------------------------------------------------
 def _equation(w: Writer, d: FunctionDerivation) -> None:
     step = w.step(_("Freudenstein's equation"))
-    step.say(w.say(_("With input a, coupler b, output c and frame d, the coupler's constant length gives:")))
+    step.note(w.translate(_("With input a, coupler b, output c and frame d, the coupler's constant length gives:")))
     a, b, c, frame = _free_symbols(w)
     p = [symbol(name, 0.5) for name in P]
     phi, psi, gamma = (w.angle(name, 1.0) for name in ("φ", "ψ", "γ"))
@@ -114,9 +114,9 @@ def _cosines(w: Writer, equation: Freudenstein, moved: bool) -> None:
     """Every pair's angles with the zero angles added, and their cosines."""
     step = w.step(_("Angles and cosines of the pairs"))
     if moved:
-        step.say(w.say(_("The angles of the links are those of the pairs plus the zero angles:")))
+        step.note(w.translate(_("The angles of the links are those of the pairs plus the zero angles:")))
     columns = [
-        (w.say(_("pair")), numbers(len(equation.phi))),
+        (w.translate(_("pair")), numbers(len(equation.phi))),
         ("φ / °", degrees(equation.phi)),
         ("ψ / °", degrees(equation.psi)),
         ("γ = ψ − φ / °", degrees(equation.psi - equation.phi)),
@@ -139,8 +139,8 @@ def _solved(w: Writer, d: FunctionDerivation) -> None:
         product(step, Entries(tuple(rows)), unknown, "=", right)
         product(step, matrix(equation.rows), unknown, "=", matrix(equation.right))
     if d.method == "equation" and count > 3:
-        step.say(
-            w.say(
+        step.note(
+            w.translate(
                 _(
                     "There are more pairs than unknowns, so the sum of the squared residuals is made "
                     "smallest. Normal equations, with sums over all pairs:"
@@ -149,8 +149,8 @@ def _solved(w: Writer, d: FunctionDerivation) -> None:
         )
         product(step, _sums(count), unknown, "=", Entries.of(_sums_right()))
         product(step, matrix(equation.normal), unknown, "=", matrix(equation.moment))
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _("Solution:")
             if count == 3
             else (
@@ -193,8 +193,8 @@ def _from_coefficients(w: Writer, d: FunctionDerivation) -> None:
     step.find(w.length("b", float(equation.lengths[1]) * d.frame), root(square), w.unit)
     turned = [term.plain for term in (a, c) if term.amount < 0.0]
     if turned:
-        step.say(
-            w.say(
+        step.note(
+            w.translate(
                 _(
                     "Negative: {names}. Such a link points the opposite way, so its angle is larger by "
                     "180°; its length is the absolute value.",
@@ -209,8 +209,8 @@ def _zero_angle(w: Writer, d: FunctionDerivation) -> None:
     step = w.step(_("Free zero angle"))
     h = d.harmonics
     assert h is not None
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "Four pairs agree for three unknowns where the determinant of the four equations "
                 "vanishes. In the free zero angle ζ it is D(ζ) = k_0 + k_1 cos ζ + k_2 sin ζ + k_3 "
@@ -226,18 +226,20 @@ def _zero_angle(w: Writer, d: FunctionDerivation) -> None:
     value = k[0] + k[1] * cosine(zeta) + k[2] * sine(zeta) + k[3] * cosine(twice) + k[4] * sine(twice)
     if all(d.free):
         fixed = w.angle("ζ", d.zeros[0], "φ")
-        step.say(w.say(_("The input's zero angle is free as well and was tried at evenly spaced values; taken was")))
+        step.note(
+            w.translate(_("The input's zero angle is free as well and was tried at evenly spaced values; taken was"))
+        )
         step.give(fixed, "°")
     step.give(zeta, "°")
-    step.say(w.say(_("Root of the determinant, found from the quartic in e^(iζ); put into D:")))
+    step.note(w.translate(_("Root of the determinant, found from the quartic in e^(iζ); put into D:")))
     step.find(symbol("D", 0.0), value, "")
 
 
 def _five_pairs(w: Writer, d: FunctionDerivation) -> None:
     """Five pairs: Burmester's points of the motion of the output link against the input link."""
     step = w.step(_("Five pairs by Burmester's points"))
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "Relative to the output link, the input link takes five poses; pins that stay on "
                 "circles about points of the output are Burmester's, at most four, one of which is "
@@ -271,9 +273,9 @@ def _coefficients(sides: tuple[Term, Term, Term, Term]) -> tuple[Term, Term, Ter
 # errors -----------------------------------------------------------------------------------------
 def _search(w: Writer, d: FunctionDerivation) -> None:
     step = w.step(_("What is searched, and how"))
-    names = w.say(TYPE_NAMES[d.kind])
-    step.say(
-        w.say(
+    names = w.translate(TYPE_NAMES[d.kind])
+    step.note(
+        w.translate(
             _(
                 "No closed form: the {linkage} with the smallest root mean square structural error "
                 "is searched, by Levenberg–Marquardt in {unknowns} free numbers, from the best of "
@@ -294,10 +296,12 @@ def _search(w: Writer, d: FunctionDerivation) -> None:
         "constant": w.length_text(constant) if places else shown(constant, "angle"),
     }
     if scale == 1.0:
-        step.say(w.say(_("The output {symbol} is the output link's coordinate plus {constant}.").format(**values)))
+        step.note(
+            w.translate(_("The output {symbol} is the output link's coordinate plus {constant}.").format(**values))
+        )
     else:
-        step.say(
-            w.say(
+        step.note(
+            w.translate(
                 _("The output {symbol} is the output link's coordinate times {scale}, plus {constant}.").format(
                     scale=f"{scale:.6g}", **values
                 )
@@ -311,9 +315,11 @@ def _errors(w: Writer, d: FunctionDerivation) -> None:
     step = w.step(_("Error at every position"))
     places = w.found.error_name == "length"
     if d.method == "search":
-        step.say(w.say(_("Coordinates of the moving points at every pair, from which the output can be measured:")))
+        step.note(
+            w.translate(_("Coordinates of the moving points at every pair, from which the output can be measured:"))
+        )
         moving = [name for name in best.positions if name not in best.linkage.frame]
-        columns = [(w.say(_("pair")), numbers(len(d.inputs))), *coordinates(w, best, moving)]
+        columns = [(w.translate(_("pair")), numbers(len(d.inputs))), *coordinates(w, best, moving)]
         w.table(step, _("Positions of the moving points"), columns)
     found = d.outputs + best.deviations
     shown = w.lengths if places else degrees
@@ -321,16 +327,16 @@ def _errors(w: Writer, d: FunctionDerivation) -> None:
     letter = "s" if places else "ψ"
     unit = w.unit if places else "°"
     columns = [
-        (w.say(_("pair")), numbers(len(d.inputs))),
+        (w.translate(_("pair")), numbers(len(d.inputs))),
         ("φ / °", degrees(d.inputs)),
         (f"{letter} / {unit}", shown(d.outputs)),
-        (w.say(_("{symbol} generated / {unit}", symbol=letter, unit=unit)), shown(found)),
+        (w.translate(_("{symbol} generated / {unit}", symbol=letter, unit=unit)), shown(found)),
         (f"Δ{letter} / {unit}", off),
     ]
     w.table(step, _("Deviation at every position"), columns)
     if w.found.error_name != "none":
         rms, worst = (_shown(w, each, places) for each in (_rms(best.deviations), np.abs(best.deviations).max()))
-        step.say(w.say(_("Structural error: root mean square {rms}, maximum {worst}.", rms=rms, worst=worst)))
+        step.note(w.translate(_("Structural error: root mean square {rms}, maximum {worst}.", rms=rms, worst=worst)))
     w.picture("structural_error")
 
 
@@ -354,11 +360,11 @@ def _residuals(w: Writer, step: Step, d: FunctionDerivation) -> None:
         right = np.cos(phi)
         terms = _coefficients(_lengths(w, d))
         p = np.array([term.value for term in terms])
-    step.say(w.say(_("Both sides of Freudenstein's equation at every pair:")))
+    step.note(w.translate(_("Both sides of Freudenstein's equation at every pair:")))
     columns = [
-        (w.say(_("pair")), numbers(len(right))),
+        (w.translate(_("pair")), numbers(len(right))),
         ("cos φ", decimals(right, 6)),
         ("P_0 cos ψ + P_1 cos γ + P_2", decimals(rows @ p, 6)),
-        (w.say(_("residual")), small(rows @ p - right)),
+        (w.translate(_("residual")), small(rows @ p - right)),
     ]
     w.table(step, _("Residual of Freudenstein's equation"), columns)

@@ -50,7 +50,7 @@ def motion(w: Writer, d: MotionDerivation) -> None:
         _points(w, d)
     else:
         step = w.step(_("Dyads"))
-        step.say(w.say(_family(d, w.found.counts.get("dyads", 0))))
+        step.note(w.translate(_family(d, w.found.counts.get("dyads", 0))))
     _circles(w, d)
     if not w.found.best.linkage.guides:
         examine(w, w.found.best)
@@ -81,11 +81,13 @@ def _family(d: MotionDerivation, dyads: int) -> Message:
 
 def _requirements(w: Writer, d: MotionDerivation) -> None:
     step = w.step(pgettext("synthesis_steps", "Given"))
-    step.say(w.say(_("{count} poses: place of the coupler point P, and angle φ of the coupler.", count=len(d.p))))
-    free = w.say(pgettext("synthesis_steps", "free"))
+    step.note(
+        w.translate(_("{count} poses: place of the coupler point P, and angle φ of the coupler.", count=len(d.p)))
+    )
+    free = w.translate(pgettext("synthesis_steps", "free"))
     angles = [free if math.isnan(each) else degrees([each])[0] for each in d.phi]
     columns = [
-        (w.say(_("pose")), numbers(len(d.p))),
+        (w.translate(_("pose")), numbers(len(d.p))),
         (w.over("x"), w.lengths(d.p.real)),
         (w.over("y"), w.lengths(d.p.imag)),
         ("φ / °", angles),
@@ -96,8 +98,8 @@ def _requirements(w: Writer, d: MotionDerivation) -> None:
 def _poles(w: Writer, d: MotionDerivation) -> None:
     """Poles of all pairs of poses: the points that have the same place in both."""
     step = w.step(_("Poles"))
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "A body that goes from pose j to pose k turns about the pole P_jk, the point that "
                 "has the same place in both. Pins and pivots subtend at the poles half "
@@ -116,7 +118,7 @@ def _poles(w: Writer, d: MotionDerivation) -> None:
             places.append(np.nan if parallel else (d.p[k] - unit * d.p[j]) / (1 - unit))
     at: Complexes = np.array(places)
     columns = [
-        (w.say(_("pole")), pairs),
+        (w.translate(_("pole")), pairs),
         ("φ_k − φ_j / °", degrees(turns)),
         (w.over("x"), [text.replace("nan", "∞") for text in w.lengths(at.real)]),
         (w.over("y"), [text.replace("nan", "∞") for text in w.lengths(at.imag)]),
@@ -128,8 +130,8 @@ def _curves(w: Writer, d: MotionDerivation) -> None:
     """Equations of the circle- and centre-point curve of four poses, and both chosen pairs in them."""
     assert d.circle_curve is not None and d.centre_curve is not None
     step = w.step(_("Circle-point and centre-point curve"))
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "Of four poses, the body points whose positions lie on a circle are the circle-point "
                 "curve (at pose 1), the centres of those circles are the centre-point curve: both "
@@ -142,9 +144,9 @@ def _curves(w: Writer, d: MotionDerivation) -> None:
     )
     powers = [_power(i, j) for i, j in POWERS]
     columns = [
-        (w.say(_("term")), powers),
-        (w.say(_("circle points")), decimals(d.circle_curve, 6)),
-        (w.say(_("centre points")), decimals(d.centre_curve, 6)),
+        (w.translate(_("term")), powers),
+        (w.translate(_("circle points")), decimals(d.circle_curve, 6)),
+        (w.translate(_("centre points")), decimals(d.centre_curve, 6)),
     ]
     w.table(step, _("Coefficients of both curves"), columns)
     best = w.found.best
@@ -158,9 +160,9 @@ def _curves(w: Writer, d: MotionDerivation) -> None:
             u, v = place.real / d.size, place.imag / d.size
             left = sum(c * u**i * v**j for c, (i, j) in zip(curve, POWERS, strict=True))
             rows.append((name, f"{u:.6f}", f"{v:.6f}", small([left], 100.0)[0]))
-    step.say(w.say(_("The pins and the pivots that were taken, put in:")))
+    step.note(w.translate(_("The pins and the pivots that were taken, put in:")))
     table = list(zip(*rows, strict=True))
-    heads = (w.say(_("point")), "u", "v", w.say(_("left side")))
+    heads = (w.translate(_("point")), "u", "v", w.translate(_("left side")))
     w.table(step, _("The chosen points on the curves"), list(zip(heads, table, strict=True)), "<>>>")
 
 
@@ -173,8 +175,8 @@ def _points(w: Writer, d: MotionDerivation) -> None:
     """Burmester's four points of five poses."""
     assert d.points is not None and d.centres is not None and d.real is not None and d.slides is not None
     step = w.step(_("Burmester's points"))
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "Five poses: the condition of a circle is linear in seven products of point and "
                 "centre; two quadratic relations between these leave four solutions. A is the pin in "
@@ -184,10 +186,10 @@ def _points(w: Writer, d: MotionDerivation) -> None:
     )
     at = d.points + d.p[0]
     kinds = [
-        w.say(_("complex") if not real else (_("real, a straight line") if slides else _("real, a circle")))
+        w.translate(_("complex") if not real else (_("real, a straight line") if slides else _("real, a circle")))
         for real, slides in zip(d.real, d.slides, strict=True)
     ]
-    columns = [(w.say(_("solution")), numbers(len(at)))]
+    columns = [(w.translate(_("solution")), numbers(len(at)))]
     for name, values in (("A", at), ("O", d.centres)):
         shown = [w.lengths([part]) if real else ["–"] for part, real in zip(values.real, d.real, strict=True)]
         other = [w.lengths([part]) if real else ["–"] for part, real in zip(values.imag, d.real, strict=True)]
@@ -195,7 +197,7 @@ def _points(w: Writer, d: MotionDerivation) -> None:
             (w.over(f"x_{name}"), [each[0] for each in shown]),
             (w.over(f"y_{name}"), [each[0] for each in other]),
         ]
-    columns.append((w.say(pgettext("synthesis_steps", "kind")), kinds))
+    columns.append((w.translate(pgettext("synthesis_steps", "kind")), kinds))
     w.table(step, _("Burmester's points of the five poses"), columns, ">>>>><")
 
 
@@ -203,8 +205,8 @@ def _circles(w: Writer, d: MotionDerivation) -> None:
     """The positions of both pins, and their circle's centre from the bisectors."""
     best = w.found.best
     step = w.step(_("Positions of the pins, and the fixed pivots"))
-    step.say(w.say(_("Places of both pins in every pose:")))
-    columns = [(w.say(_("pose")), numbers(len(d.p))), *coordinates(w, best, ("A", "B"))]
+    step.note(w.translate(_("Places of both pins in every pose:")))
+    columns = [(w.translate(_("pose")), numbers(len(d.p))), *coordinates(w, best, ("A", "B"))]
     w.table(step, _("Positions of the moving points"), columns)
     for pin, pivot in (("A", "O1"), ("B", "O2")):
         if pivot in best.linkage.points:
@@ -225,8 +227,8 @@ def _centre(w: Writer, step: Step, positions: Complexes, names: tuple[str, str])
     if met:
         rows = 2 * (places[1:] - places[0])
         right = np.abs(places[1:]) ** 2 - np.abs(places[0]) ** 2
-        step.say(
-            w.say(
+        step.note(
+            w.translate(
                 _(
                     "The perpendicular bisectors of {pin}1 {pin}j meet in {pivot}: 2 ({pin}j − "
                     "{pin}1)·{pivot} = {pin}j² − {pin}1²",
@@ -238,8 +240,8 @@ def _centre(w: Writer, step: Step, positions: Complexes, names: tuple[str, str])
         known = matrix(np.stack([rows.real, rows.imag], 1), 4)
         product(step, known, Entries.of(unknown), "=", matrix(right, 4))
     else:
-        step.say(
-            w.say(
+        step.note(
+            w.translate(
                 _(
                     "The bisectors of {pin}1 {pin}j do not meet in one point; {pivot} is the centre with "
                     "the smallest sum of squared differences of the distances:",
@@ -262,8 +264,8 @@ def _centre(w: Writer, step: Step, positions: Complexes, names: tuple[str, str])
     step.find(symbol(f"l_{pivot}{pin}", float(far[0])), radius, w.unit)
     off = 0.0 if met else float(np.abs(far - far[0]).max())
     radii = ", ".join(w.lengths(far / w.scale))
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "Distances {pivot} {pin} in the poses: {radii} {unit}; they differ by at most {off} {unit}.",
                 pin=pin,
@@ -281,8 +283,8 @@ def _line(w: Writer, step: Step, positions: Complexes) -> None:
     chord = positions[np.abs(positions - positions[0]).argmax()] - positions[0]
     unit = chord / abs(chord)
     off = ((positions - positions[0]) * unit.conj()).imag
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "B slides: its places lie on a straight line at the angle {angle}°, off by at most {off} {unit}.",
                 angle=f"{math.degrees(np.angle(unit)):.4f}",

@@ -38,9 +38,9 @@ def path(w: Writer, d: PathDerivation) -> None:
     """Points, unknowns, and the coupler point at every one of them."""
     points = d.demand.points
     step = w.step(pgettext("synthesis_steps", "Given"))
-    step.say(w.say(_("{count} points that the coupler point P shall pass in this order.", count=len(points))))
+    step.note(w.translate(_("{count} points that the coupler point P shall pass in this order.", count=len(points))))
     columns = [
-        (w.say(_("point")), numbers(len(points))),
+        (w.translate(_("point")), numbers(len(points))),
         (w.over("x"), w.lengths(points.real)),
         (w.over("y"), w.lengths(points.imag)),
     ]
@@ -48,8 +48,8 @@ def path(w: Writer, d: PathDerivation) -> None:
         columns.append(("θ / °", degrees(d.demand.angles)))
     w.table(step, _("Points of the path"), columns)
     step = w.step(_("What is searched, and how"))
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "P = O1 + a e^(iθ) + p e^(iδ) with the crank a and the vector p on the coupler. For "
                 "given ratios of the lengths and crank angles the place, size and direction of the "
@@ -59,8 +59,8 @@ def path(w: Writer, d: PathDerivation) -> None:
     )
     unknowns = 2 * len(points) - d.demand.excess
     equations = 2 * len(points)
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "{equations} equations for {unknowns} unknowns: the sum of squared distances is made "
                 "smallest, from many starts; {optima} optima were compared.",
@@ -79,7 +79,7 @@ def path(w: Writer, d: PathDerivation) -> None:
         )
     )
     if d.demand.pivot is not None:
-        step.say(w.say(_("The crank's pivot is given.")))
+        step.note(w.translate(_("The crank's pivot is given.")))
     _coupler_point(w)
     _points_met(w)
     examine(w, w.found.best)
@@ -96,7 +96,7 @@ def _coupler_point(w: Writer) -> None:
         step.give(term, w.unit)
     along = points["B"] - points["A"]
     local = (points["P"] - points["A"]) * along.conjugate() / abs(along)
-    step.say(w.say(_("The coupler point from A, along AB (ξ) and to the left of it (η):")))
+    step.note(w.translate(_("The coupler point from A, along AB (ξ) and to the left of it (η):")))
     for axis, value in (("ξ", local.real), ("η", local.imag)):
         step.give(symbol(axis, value * w.scale), w.unit)
 
@@ -107,21 +107,21 @@ def _points_met(w: Writer) -> None:
     target = found.target
     assert target is not None
     step = w.step(_("Error at every position"))
-    step.say(w.say(_("Pins and coupler point at every point:")))
+    step.note(w.translate(_("Pins and coupler point at every point:")))
     w.table(
         step,
         _("Positions of the moving points"),
-        [(w.say(_("point")), numbers(len(target))), *coordinates(w, best, "ABP")],
+        [(w.translate(_("point")), numbers(len(target))), *coordinates(w, best, "ABP")],
     )
     places = best.positions["P"]
     off = np.abs(places - target)
     columns = [
-        (w.say(_("point")), numbers(len(target))),
+        (w.translate(_("point")), numbers(len(target))),
         (w.over("x"), w.lengths(target.real)),
         (w.over("y"), w.lengths(target.imag)),
         (w.over("x_P"), w.lengths(places.real)),
         (w.over("y_P"), w.lengths(places.imag)),
-        (w.over(w.say(_("distance"))), small(off * w.scale, found.extent * w.scale)),
+        (w.over(w.translate(_("distance"))), small(off * w.scale, found.extent * w.scale)),
     ]
     w.table(step, _("Deviation at every position"), columns)
     size = found.extent * w.scale
@@ -130,7 +130,7 @@ def _points_met(w: Writer) -> None:
         value = float((off**2).sum()) * w.scale**2
         step.find(symbol("Σe²", value), total(terms), f"{w.unit}²")
     else:
-        step.say(w.say(_("Sum of squared distances: {squares} m².", squares=error_texts(best)[0])))
+        step.note(w.translate(_("Sum of squared distances: {squares} m².", squares=error_texts(best)[0])))
     w.picture("structural_error")
 
 
@@ -138,14 +138,14 @@ def nine_points(w: Writer, d: NinePointDerivation) -> None:
     """Nine points: all classes of cognates, and the check of the lengths in every position."""
     step = w.step(pgettext("synthesis_steps", "Given"))
     columns = [
-        (w.say(_("point")), numbers(len(d.points))),
+        (w.translate(_("point")), numbers(len(d.points))),
         (w.over("x"), w.lengths(d.points.real)),
         (w.over("y"), w.lengths(d.points.imag)),
     ]
     w.table(step, _("Points of the path"), columns)
     step = w.step(_("What is searched, and how"))
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "Nine points leave no number free: all {classes} of 1442 classes of cognates were "
                 "found by continuation, {real} of them real; their {examined} four-bars, with both "
@@ -159,8 +159,8 @@ def nine_points(w: Writer, d: NinePointDerivation) -> None:
     )
     _coupler_point(w)
     step = w.step(_("Error at every position"))
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "P lies at the nine points; the lengths |O1A|, |AB| and |O2B| from these coordinates "
                 "are the same in all of them:"
@@ -171,7 +171,7 @@ def nine_points(w: Writer, d: NinePointDerivation) -> None:
     w.table(
         step,
         _("Positions of the moving points"),
-        [(w.say(_("point")), numbers(len(d.points))), *coordinates(w, best, "ABP")],
+        [(w.translate(_("point")), numbers(len(d.points))), *coordinates(w, best, "ABP")],
     )
     examine(w, best)
 
@@ -183,8 +183,8 @@ def straight_line(w: Writer, d: StraightLineDerivation) -> None:
     step = w.step(pgettext("synthesis_steps", "Given"))
     step.give(w.length("s", d.length), w.unit)
     step.give(w.length("δ", d.allowed), w.unit)
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "The kind of linkage is demanded; the longest stretch of its path that is straight enough is "
                 "made as long as demanded."
@@ -199,8 +199,8 @@ def straight_line(w: Writer, d: StraightLineDerivation) -> None:
         )
     )
     step = w.step(_("Link lengths"))
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             (
                 _(
                     "Peaucellier's linkage: arms L, rhombus s and crank r equal to the frame keep P at "
@@ -231,8 +231,8 @@ def _proportions(w: Writer, step: Step, kind: str) -> None:
 def _along(w: Writer, places: np.ndarray, off: np.ndarray) -> None:
     """Coordinates of the drawing point along the stretch, and its distance from the line."""
     step = w.step(_("Error at every position"))
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "The drawing point along the stretch, and its distance from the line through the "
                 "first of these points:"
@@ -240,13 +240,13 @@ def _along(w: Writer, places: np.ndarray, off: np.ndarray) -> None:
         )
     )
     columns = [
-        (w.say(_("position")), numbers(len(places))),
+        (w.translate(_("position")), numbers(len(places))),
         (w.over("x_P"), w.lengths(places.real)),
         (w.over("y_P"), w.lengths(places.imag)),
-        (w.over(w.say(_("distance"))), small(off * w.scale, float(np.ptp(np.abs(places))) * w.scale)),
+        (w.over(w.translate(_("distance"))), small(off * w.scale, float(np.ptp(np.abs(places))) * w.scale)),
     ]
     w.table(step, _("Deviation at every position"), columns)
-    step.say(w.say(_("Maximum distance from the line: {error}.", error=w.length_text(w.found.best.error))))
+    step.note(w.translate(_("Maximum distance from the line: {error}.", error=w.length_text(w.found.best.error))))
     w.picture("structural_error")
 
 
@@ -258,8 +258,8 @@ def dwell(w: Writer, d: DwellDerivation) -> None:
     step.give(w.angle("ψ", d.swing_angle), "°")
     step.give(w.length("d", d.frame), w.unit)
     step = w.step(_("What is searched, and how"))
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "{tried} crank-rockers with random coupler points were tried, and of each the "
                 "stretch over this crank angle that is nearest to a circular arc; for the best "
@@ -270,8 +270,8 @@ def dwell(w: Writer, d: DwellDerivation) -> None:
         )
     )
     step = w.step(_("The arc of the coupler curve"))
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "While P runs along this arc, a link of the length ρ keeps its other end Q in the "
                 "centre C, and the output rests:"
@@ -285,7 +285,7 @@ def dwell(w: Writer, d: DwellDerivation) -> None:
     places = best.positions["P"]
     far = np.abs(places - d.centre)
     columns = [
-        (w.say(_("position")), numbers(len(places))),
+        (w.translate(_("position")), numbers(len(places))),
         ("θ / °", degrees(d.crank, 3)),
         (w.over("x_P"), w.lengths(places.real)),
         (w.over("y_P"), w.lengths(places.imag)),
@@ -294,8 +294,8 @@ def dwell(w: Writer, d: DwellDerivation) -> None:
         ("Δψ / °", decimals(np.degrees(best.deviations), 5)),
     ]
     w.table(step, _("Positions during the rest"), columns)
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "During the rest the output deviates by at most ±{error}°; over the turn it swings {swing}°.",
                 error=number(best.error, "angle", 4),
@@ -311,8 +311,8 @@ def free_curve(w: Writer, d: FreeCurveDerivation) -> None:
     best = w.found.best
     step = w.step(pgettext("synthesis_steps", "Given"))
     points = len(d.curve)
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _("A closed curve by {points} corners; its centroid S and root mean square radius R:", points=points)
             if d.closed
             else _("An open curve by {points} corners; its centroid S and root mean square radius R:", points=points)
@@ -322,16 +322,16 @@ def free_curve(w: Writer, d: FreeCurveDerivation) -> None:
         letter, _unused, index = name.partition("_")
         step.give(w.length(letter, value, index), w.unit)
     step = w.step(_("What is searched, and how"))
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "Error: mean nearest distance from the curve to the drawn curve, plus that back, "
                 "divided by R. Centroid and R of both curves are the same."
             )
         )
     )
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "Linkages are random structures, improved by descent and changed again: transmission "
                 "angles of at least {angle}°, every joint within {size} R of S; in {seconds} s "
@@ -344,8 +344,8 @@ def free_curve(w: Writer, d: FreeCurveDerivation) -> None:
             )
         )
     )
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "First candidate: {kind}, {links} links, {joints} joints.",
                 kind=TYPE_NAMES[best.grashof_type],
@@ -360,17 +360,17 @@ def free_curve(w: Writer, d: FreeCurveDerivation) -> None:
     assert drawn is not None
     nearest = drawn[np.abs(points[:, None] - drawn).argmin(1)]
     columns = [
-        (w.say(_("point")), numbers(len(points))),
+        (w.translate(_("point")), numbers(len(points))),
         (w.over("x"), w.lengths(points.real)),
         (w.over("y"), w.lengths(points.imag)),
         (w.over("x_P"), w.lengths(nearest.real)),
         (w.over("y_P"), w.lengths(nearest.imag)),
-        (w.over(w.say(_("distance"))), small(np.abs(nearest - points) * w.scale, d.radius * w.scale)),
+        (w.over(w.translate(_("distance"))), small(np.abs(nearest - points) * w.scale, d.radius * w.scale)),
     ]
-    step.say(w.say(_("Some corners of the curve, and the nearest point of the drawn curve:")))
+    step.note(w.translate(_("Some corners of the curve, and the nearest point of the drawn curve:")))
     w.table(step, _("Deviation at every position"), columns)
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "Error {error} (in lengths {mean}), largest nearest distance {worst}.",
                 error=f"{best.error:.4g}",

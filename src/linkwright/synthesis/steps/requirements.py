@@ -38,8 +38,8 @@ SHOWN = 7
 
 def extreme_position_angle(w: Writer, step: Step, ratio: Term, radians: float) -> Term:
     """θ = 180° (K - 1)/(K + 1)."""
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "The fast stroke takes the crank angle 180° − θ, the slow one 180° + θ, so K = (180° "
                 "+ θ)/(180° − θ), and"
@@ -53,11 +53,11 @@ def extreme_position_angle(w: Writer, step: Step, ratio: Term, radians: float) -
 def rounded(w: Writer, names: Sequence[str], lengths: Sequence[float], after: Sequence[float]) -> None:
     """The step in which lengths (m) are rounded; from there on the rounded ones are used."""
     step = w.step(_("Rounded lengths"))
-    step.say(w.say(_("From here on with the rounded lengths:")))
+    step.note(w.translate(_("From here on with the rounded lengths:")))
     columns = [
-        (w.say(pgettext("synthesis_steps", "length")), list(names)),
-        (w.over(w.say(_("calculated"))), w.lengths(lengths)),
-        (w.over(w.say(_("rounded"))), w.lengths(after)),
+        (w.translate(pgettext("synthesis_steps", "length")), list(names)),
+        (w.over(w.translate(_("calculated"))), w.lengths(lengths)),
+        (w.over(w.translate(_("rounded"))), w.lengths(after)),
     ]
     w.table(step, _("Rounding of the lengths"), columns, "<>>")
 
@@ -83,8 +83,8 @@ def _from_ratios(w: Writer, d: SliderCrankDerivation, parent: Step, terms: tuple
     lam = parent.give(w.value("λ", d.rod_ratio), "")
     eps = parent.give(w.value("ε", d.offset_ratio), "") if d.offset_ratio else ZERO
     step = w.step(_("Link lengths"))
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "In the limit positions crank and rod lie in one line, at l + r and l − r from the "
                 "crank's pivot. With l = λ r and e = ε r the stroke is"
@@ -108,8 +108,8 @@ def _from_quick_return(w: Writer, d: SliderCrankDerivation, parent: Step, terms:
     angle = math.pi * (d.quick_return_ratio - 1) / (d.quick_return_ratio + 1)
     theta = extreme_position_angle(w, step, ratio, angle)
     step = w.step(_("Link lengths"))
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "The crank's pivot and both limit positions of the slider pin are a triangle with "
                 "the sides l + r and l − r, the angle θ between them and the side H opposite, at the "
@@ -133,8 +133,8 @@ def _from_transmission(w: Writer, d: SliderCrankDerivation, parent: Step, terms:
     if d.offset:
         parent.give(e, w.unit)
     step = w.step(_("Link lengths"))
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "The transmission angle is smallest where the crank is perpendicular to the guide on "
                 "the side away from it: cos μ_min = (r + e)/l."
@@ -143,7 +143,9 @@ def _from_transmission(w: Writer, d: SliderCrankDerivation, parent: Step, terms:
     )
     if d.offset:
         step.relate(stroke, root((rod + r).squared - e.squared) - root((rod - r).squared - e.squared))
-        step.say(w.say(_("With l = (r + e)/cos μ_min the stroke grows with r; bisection of this equation gives")))
+        step.note(
+            w.translate(_("With l = (r + e)/cos μ_min the stroke grows with r; bisection of this equation gives"))
+        )
         step.give(r, w.unit)
     else:
         step.find(r, stroke / TWO, w.unit)
@@ -154,8 +156,8 @@ def _slider_check(w: Writer, lengths: tuple[Term, Term, Term]) -> None:
     """Limit positions, stroke, K, and the transmission angles of both strokes."""
     r, rod, e = lengths
     step = w.step(_("Check with the lengths found"))
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "Limit positions of the slider pin along the guide, from the foot of the crank's "
                 "pivot; the stroke is their distance:"
@@ -173,8 +175,8 @@ def _slider_check(w: Writer, lengths: tuple[Term, Term, Term]) -> None:
         theta = step.find(w.angle("θ", math.radians(turn.value)), turn, "°")
         ratio = (HALF_TURN + theta) / (HALF_TURN - theta)
         step.find(w.value("K", ratio.value), ratio, "")
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "The crank turns fully: r + e = {sum} is at most l = {rod}.",
                 sum=w.length_text((r + e).value / w.scale),
@@ -182,8 +184,8 @@ def _slider_check(w: Writer, lengths: tuple[Term, Term, Term]) -> None:
             )
         )
     )
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "Smallest transmission angle of the slow (s) and of the fast (f) stroke, with the "
                 "crank perpendicular to the guide on the guide's side and on the other one:"
@@ -211,8 +213,10 @@ def quick_return(w: Writer, d: QuickReturnDerivation) -> None:
     step = w.step(_("Angle between the crank's limit directions"))
     theta = extreme_position_angle(w, step, ratio, d.theta)
     step = w.step(_("Link lengths"))
-    step.say(
-        w.say(_("In the limit positions the lever is tangent to the circle of the crank pin; the lever swings by θ:"))
+    step.note(
+        w.translate(
+            _("In the limit positions the lever is tangent to the circle of the crank pin; the lever swings by θ:")
+        )
     )
     half = sine(theta / TWO)
     crank = step.find(w.length("r", d.crank), frame * half, w.unit)
@@ -220,7 +224,7 @@ def quick_return(w: Writer, d: QuickReturnDerivation) -> None:
         _ram(w, d, step, theta, stroke)
     w.picture("construction")
     step = w.step(_("Check with the lengths found"))
-    step.say(w.say(_("From crank and frame again:")))
+    step.note(w.translate(_("From crank and frame again:")))
     swing = TWO * arcsine(crank / frame)
     found = step.find(w.angle("θ", math.radians(swing.value)), swing, "°")
     again = (HALF_TURN + found) / (HALF_TURN - found)
@@ -229,10 +233,10 @@ def quick_return(w: Writer, d: QuickReturnDerivation) -> None:
 
 def _ram(w: Writer, d: QuickReturnDerivation, step: Step, theta: Term, stroke: Term) -> None:
     """The lever's arm, the place of the guide and the rod."""
-    step.say(w.say(_("The end of the arm travels the chord of its arc, which is the stroke:")))
+    step.note(w.translate(_("The end of the arm travels the chord of its arc, which is the stroke:")))
     arm = step.find(w.length("L", d.arm), stroke / (TWO * sine(theta / TWO)), w.unit)
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "The guide halves the sagitta s of that arc, so that the rod is inclined equally to "
                 "both sides. Distance y of the guide from the lever's pivot, and the sagitta:"
@@ -242,7 +246,9 @@ def _ram(w: Writer, d: QuickReturnDerivation, step: Step, theta: Term, stroke: T
     step.find(w.length("y", d.height), arm * (ONE + cosine(theta / TWO)) / TWO, w.unit)
     sagitta = arm * (ONE - cosine(theta / TWO))
     height = step.find(w.length("s", sagitta.value / w.scale), sagitta, w.unit)
-    step.say(w.say(_("With the rod l (as demanded, else at least half the arm) the ram's largest pressure angle is")))
+    step.note(
+        w.translate(_("With the rod l (as demanded, else at least half the arm) the ram's largest pressure angle is"))
+    )
     rod = step.give(w.length("l", d.rod), w.unit)
     angle = arcsine(height / (TWO * rod))
     step.find(w.angle("α", math.radians(angle.value), "max"), angle, "°")
@@ -255,20 +261,22 @@ def toggle(w: Writer, d: ToggleDerivation) -> None:
     distance = step.give(w.length("s", d.distance), w.unit)
     stroke = step.give(w.length("H", d.stroke), w.unit)
     step = w.step(_("Link lengths"))
-    step.say(
-        w.say(_("Virtual work of the force F on the knee and P on the slider: P/F = 1/(2 tan α), so at the ratio n"))
+    step.note(
+        w.translate(
+            _("Virtual work of the force F on the knee and P on the slider: P/F = 1/(2 tan α), so at the ratio n")
+        )
     )
     alpha = step.find(w.angle("α", d.alpha), arctangent(ONE / (TWO * ratio)), "°")
-    step.say(w.say(_("The slider is s = 2 l (1 − cos α) = 4 l sin²(α/2) before the dead point:")))
+    step.note(w.translate(_("The slider is s = 2 l (1 − cos α) = 4 l sin²(α/2) before the dead point:")))
     link = step.find(w.length("l", d.link), distance / (FOUR * sine(alpha / TWO).squared), w.unit)
-    step.say(w.say(_("Over the full stroke H = 4 l sin²(α_0/2), so that it begins at")))
+    step.note(w.translate(_("Over the full stroke H = 4 l sin²(α_0/2), so that it begins at")))
     step.find(w.angle("α", d.first_angle, "0"), TWO * arcsine(root(stroke / (FOUR * link))), "°")
     step = w.step(_("Check with the lengths found"))
-    step.say(w.say(_("Distance before the dead point and force ratio at some angles:")))
+    step.note(w.translate(_("Distance before the dead point and force ratio at some angles:")))
     angles = np.unique(np.append(np.linspace(d.first_angle, d.alpha / 4, SHOWN), d.alpha))[::-1]
     rows = [
         ("α / °", degrees(angles)),
-        (w.over(w.say(_("distance before the dead point"))), w.lengths(2 * d.link * (1 - np.cos(angles)))),
+        (w.over(w.translate(_("distance before the dead point"))), w.lengths(2 * d.link * (1 - np.cos(angles)))),
         ("P/F", decimals(1 / (2 * np.tan(angles)), 4)),
     ]
     w.table(step, _("Force ratio over the stroke"), rows)
@@ -296,8 +304,8 @@ def _circle(w: Writer, d: CrankRockerDerivation, swing: Term, theta: Term) -> No
     """Chord, radius and centre of the circle from which the limit positions subtend θ."""
     step = w.step(_("Auxiliary circle of the crank's pivots"))
     c = step.give(w.length("c", d.rocker_length), w.unit)
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "The limit positions B1 and B2 of the rocker pin lie symmetrically about the y axis, "
                 "the rocker's pivot at the origin; their chord is"
@@ -307,8 +315,8 @@ def _circle(w: Writer, d: CrankRockerDerivation, swing: Term, theta: Term) -> No
     half = swing / TWO
     chord = step.find(w.length("s", 2 * d.rocker_length * math.sin(d.swing_angle / 2)), TWO * c * sine(half), w.unit)
     if d.centre is None:
-        step.say(
-            w.say(
+        step.note(
+            w.translate(
                 _(
                     "With K = 1 the angle θ is zero: crank and coupler have the same direction in both "
                     "limit positions, and the crank's pivot lies on the line B1 B2."
@@ -316,8 +324,8 @@ def _circle(w: Writer, d: CrankRockerDerivation, swing: Term, theta: Term) -> No
             )
         )
         return
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "From every point of a circle over this chord, B1 and B2 subtend the angle θ "
                 "(inscribed angle); its radius is"
@@ -330,7 +338,7 @@ def _circle(w: Writer, d: CrankRockerDerivation, swing: Term, theta: Term) -> No
     up = c * cosine(half)
     above = d.centre.imag >= math.cos(d.swing_angle / 2)
     height = up + aside if above else up - aside
-    step.say(w.say(_("Its centre M lies on the y axis, at the height")))
+    step.note(w.translate(_("Its centre M lies on the y axis, at the height")))
     step.find(w.length("y", d.centre.imag * d.rocker_length, "M"), height, w.unit)
 
 
@@ -339,8 +347,8 @@ def _pivot(w: Writer, d: CrankRockerDerivation, lengths: tuple[Term, Term]) -> N
     step = w.step(_("Choice of the crank's pivot"))
     limit = "" if math.isinf(d.link_ratio) else f"{d.link_ratio:.4g}"
     family = w.found.counts.get("family", 0)
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "Frame and rocker are both given, so the crank's pivot lies where the circle about the "
                 "rocker's pivot with the frame as radius meets this circle; {count} such points give a crank-rocker.",
@@ -359,7 +367,7 @@ def _pivot(w: Writer, d: CrankRockerDerivation, lengths: tuple[Term, Term]) -> N
     place = d.pivot * d.rocker_length
     x, y = (step.give(w.length("x", place.real, "O1"), w.unit), step.give(w.length("y", place.imag, "O1"), w.unit))
     c, half = w.length("c", d.rocker_length), w.angle("ψ", d.swing_angle) / TWO
-    step.say(w.say(_("Its distances from B1 and B2 are the sum and the difference of coupler and crank:")))
+    step.note(w.translate(_("Its distances from B1 and B2 are the sum and the difference of coupler and crank:")))
     up, aside = c * cosine(half), c * sine(half)
     found = []
     for index, across in (("1", x - aside), ("2", x + aside)):
@@ -377,8 +385,8 @@ def _limits_again(w: Writer, sides: tuple[Term, Term, Term, Term]) -> None:
     """Swing angle and K from the lengths by the law of cosines."""
     a, b, c, d = sides
     step = w.step(_("Check with the lengths found"))
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "The law of cosines with b + a and b − a gives the rocker's and the crank's angle in "
                 "both limit positions; their differences are ψ and θ:"
@@ -409,12 +417,14 @@ def drag_link(w: Writer, d: DragLinkDerivation) -> None:
     ratio = step.give(w.value("K", d.quick_return_ratio), "")
     frame = step.give(w.length("d", d.frame), w.unit)
     step = w.step(_("Both ends of the slow half turn"))
-    step.say(
-        w.say(_("While the follower makes its slow half turn between the ends of the stroke, the driver turns by"))
+    step.note(
+        w.translate(
+            _("While the follower makes its slow half turn between the ends of the stroke, the driver turns by")
+        )
     )
     beta = step.find(w.angle("β", d.slow_turn), TWO * HALF_TURN * ratio / (ONE + ratio), "°")
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "Three numbers remain free: the follower's length and the angles of follower and "
                 "driver at the beginning. Of all drag links of one circuit whose longest link is at "
@@ -434,7 +444,7 @@ def drag_link(w: Writer, d: DragLinkDerivation) -> None:
 def _drag_lengths(w: Writer, step: Step, terms: tuple[Term, ...]) -> None:
     frame, c, psi, phi, beta = terms
     a, b, _unused, _unused2 = four_bar_lengths(w, w.found.best)
-    step.say(w.say(_("The follower's pin at both ends (driver turned by 180°), from the driver's pivot:")))
+    step.note(w.translate(_("The follower's pin at both ends (driver turned by 180°), from the driver's pivot:")))
     end = Pair(c * cosine(psi), c * sine(psi))
     found = []
     for index, x, y in (("1", frame + end.x, end.y), ("2", frame - end.x, -end.y)):
@@ -444,8 +454,8 @@ def _drag_lengths(w: Writer, step: Step, terms: tuple[Term, ...]) -> None:
     last = phi + beta
     along = first.x * cosine(phi) + first.y * sine(phi) - second.x * cosine(last) - second.y * sine(last)
     square = first.x.squared + first.y.squared - second.x.squared - second.y.squared
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "The coupler has the same length at both ends; equating both gives the driver's "
                 "length, and each end gives the coupler:"

@@ -50,7 +50,7 @@ def worked(found: Synthesis, language: str = "en") -> WorkedSynthesis:
 
     Raises LinkwrightError for an unknown language, and for cognates, which follow from a linkage that is given.
     """
-    say = speaker(language)
+    translate = speaker(language)
     if found.derivation is None or not len(found):
         raise SynthesisError(
             _(
@@ -60,14 +60,14 @@ def worked(found: Synthesis, language: str = "en") -> WorkedSynthesis:
                 task=found.task,
             )
         )
-    writer = Writer(found, say)
+    writer = Writer(found, translate)
     module, name = WRITERS[type(found.derivation).__name__].split(".")
     write: Callable[[Writer, object], None] = getattr(import_module(f"{__package__}.{module}"), name)
     write(writer, found.derivation)
     write_choice(writer)
     pictures = {number: tuple(kinds) for number, kinds in writer.pictures.items()}
     steps = tuple(step for step in writer.steps if step.items)
-    return WorkedSynthesis(say(TITLES[found.task]), steps, pictures)
+    return WorkedSynthesis(translate(TITLES[found.task]), steps, pictures)
 
 
 #: Tasks whose demands leave one linkage.
@@ -103,33 +103,33 @@ def write_choice(w: Writer) -> None:
     step = w.step(_("Choice among the candidates"))
     _facts(w, step)
     _lengths(w, step)
-    step.say(_reason(w))
+    step.note(_reason(w))
 
 
 def _facts(w: Writer, step: Step) -> None:
-    found, say = w.found, w.say
+    found, translate = w.found, w.translate
     each = found.candidates
     errors, worst = zip(*(error_texts(one) for one in each), strict=True)
     columns = [
-        (say(_("no.")), numbers(len(each))),
-        (say(_("type")), [say(TYPE_NAMES[one.grashof_type]) for one in each]),
-        (say(pgettext("synthesize", "error")), errors),
-        (say(_("worst")), worst),
-        (say(_("defects")), [defects_text(one, say) for one in each]),
+        (translate(_("no.")), numbers(len(each))),
+        (translate(_("type")), [translate(TYPE_NAMES[one.grashof_type]) for one in each]),
+        (translate(pgettext("synthesize", "error")), errors),
+        (translate(_("worst")), worst),
+        (translate(_("defects")), [defects_text(one, translate) for one in each]),
         (
-            say(pgettext("synthesize", "input")),
-            [say(pgettext("synthesize", "turns") if one.turns else _("swings")) for one in each],
+            translate(pgettext("synthesize", "input")),
+            [translate(pgettext("synthesize", "turns") if one.turns else _("swings")) for one in each],
         ),
         ("μ_min / °", decimals([math.degrees(one.transmission_angle) for one in each], 2)),
-        (say(_("l max/min")), decimals([one.link_ratio for one in each], 3)),
-        (w.over(say(_("l max"))), w.lengths([one.linkage.longest() for one in each])),
+        (translate(_("l max/min")), decimals([one.link_ratio for one in each], 3)),
+        (w.over(translate(_("l max"))), w.lengths([one.linkage.longest() for one in each])),
     ]
     align = "><>><<>>>"
     if found.task in RANKED and len(each) > 1:
-        columns.append((w.say(_("merit")), decimals(merits(each, found.extent), 4)))
+        columns.append((w.translate(_("merit")), decimals(merits(each, found.extent), 4)))
         align += ">"
     w.table(step, _("Candidates"), columns, align)
-    step.say(say(ERRORS[found.error_name]))
+    step.note(translate(ERRORS[found.error_name]))
 
 
 def _lengths(w: Writer, step: Step) -> None:
@@ -139,9 +139,9 @@ def _lengths(w: Writer, step: Step) -> None:
         lengths = each.linkage.lengths()
         groups.setdefault(tuple(lengths), []).append((number, lengths))
     for names, rows in groups.items():
-        columns = [(w.say(_("no.")), [str(number) for number, _unused in rows])]
+        columns = [(w.translate(_("no.")), [str(number) for number, _unused in rows])]
         columns += [
-            (w.over(display_name(name, w.say)), w.lengths([lengths[name] for _unused, lengths in rows]))
+            (w.over(display_name(name, w.translate)), w.lengths([lengths[name] for _unused, lengths in rows]))
             for name in names
         ]
         w.table(step, _("Link lengths"), columns)
@@ -152,11 +152,11 @@ def _reason(w: Writer) -> str:
     found, best = w.found, w.found.best
     angle = f"{math.degrees(best.transmission_angle):.2f}"
     if found.task in DETERMINED:
-        return w.say(_("The demands determine the linkage; there is nothing to choose."))
+        return w.translate(_("The demands determine the linkage; there is nothing to choose."))
     if found.task not in RANKED:
-        return w.say(REASONS[found.task].format(angle=angle, ratio=f"{best.link_ratio:.3g}"))
+        return w.translate(REASONS[found.task].format(angle=angle, ratio=f"{best.link_ratio:.3g}"))
     if getattr(found.derivation, "method", "") == "equation":
-        return w.say(
+        return w.translate(
             _(
                 "The linear equations have one solution. Of both assembly modes the one with the "
                 "smaller structural error was taken; its smallest transmission angle is {angle}°.",
@@ -164,17 +164,20 @@ def _reason(w: Writer) -> str:
             )
         )
     if len(found) == 1:
-        return w.say(
+        return w.translate(
             _("No other different candidate was found; its smallest transmission angle is {angle}°.", angle=angle)
         )
     second = found[1]
     if bool(second.defects) != bool(best.defects):
-        return w.say(
-            _("Candidate 1 is taken because candidate 2 has defects: {defects}.", defects=defects_text(second, w.say))
+        return w.translate(
+            _(
+                "Candidate 1 is taken because candidate 2 has defects: {defects}.",
+                defects=defects_text(second, w.translate),
+            )
         )
     both_exact = error_texts(best)[0] == "0" and error_texts(second)[0] == "0"
     if not both_exact and abs(best.error - second.error) > EQUAL_ERRORS * second.error:
-        return w.say(
+        return w.translate(
             _(
                 "Candidate 1 is taken for its smaller error: {error} against {next}.",
                 error=error_texts(best)[0],
@@ -182,7 +185,7 @@ def _reason(w: Writer) -> str:
             )
         )
     first, other = merits(found.candidates[:2], found.extent)
-    return w.say(
+    return w.translate(
         _(
             "Errors and defects are equal, so the merit decides, {merit} against {next}: the "
             "sine of the smallest transmission angle (here {angle}°), less for a linkage larger "

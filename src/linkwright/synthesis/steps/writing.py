@@ -31,7 +31,7 @@ class Writer:
     """The steps of one synthesis as they are written; ``pictures``: kinds of diagrams behind a step by its number."""
 
     found: Synthesis
-    say: Translate
+    translate: Translate
     steps: list[Step] = field(default_factory=list)
     pictures: dict[str, list[str]] = field(default_factory=dict)
 
@@ -52,7 +52,7 @@ class Writer:
 
     def step(self, title: Message) -> Step:
         """A new step with its title."""
-        step = Step(str(len(self.steps) + 1), self.say(title))
+        step = Step(str(len(self.steps) + 1), self.translate(title))
         self.steps.append(step)
         return step
 
@@ -95,7 +95,7 @@ class Writer:
             chosen = np.unique(np.linspace(0, len(rows) - 1, MOST_ROWS).round().astype(int))
             rows = [rows[i] for i in chosen]
         heads = tuple(head for head, _ in columns)
-        step.items.append(Tabulated(self.say(title), heads, tuple(rows), align or ">" * len(heads)))
+        step.items.append(Tabulated(self.translate(title), heads, tuple(rows), align or ">" * len(heads)))
 
 
 def named(name: str, index: str = "") -> str:
@@ -155,8 +155,8 @@ def examine(w: Writer, each: Candidate) -> None:
         transmission(w, step, sides)
     else:
         angle = f"{math.degrees(each.transmission_angle):.2f}"
-        step.say(
-            w.say(
+        step.note(
+            w.translate(
                 _(
                     "The input does not turn fully; between its first and its last position the "
                     "transmission angle never falls below {angle}°.",
@@ -171,17 +171,17 @@ def examine(w: Writer, each: Candidate) -> None:
 def grashof(w: Writer, step: Step, sides: tuple[Term, ...], each: Candidate) -> None:
     """Sum of the shortest and the longest link against that of the others."""
     low, *middle, high = sorted(sides, key=lambda term: term.amount)
-    step.say(w.say(_("Shortest and longest link, and the other two (a input, b coupler, c output, d frame):")))
+    step.note(w.translate(_("Shortest and longest link, and the other two (a input, b coupler, c output, d frame):")))
     for index, (first, second) in enumerate(((low, high), tuple(middle)), 1):
         total = first + second
         step.find(w.length("S", total.value / w.scale, str(index)), total, w.unit)
     gap = low.amount + high.amount - middle[0].amount - middle[1].amount
     kind = TYPE_NAMES[each.grashof_type]
     if abs(gap) <= 1e-12 * high.amount:
-        step.say(w.say(_("Both sums are equal: the linkage has a change point.")))
+        step.note(w.translate(_("Both sums are equal: the linkage has a change point.")))
     elif gap < 0:
-        step.say(
-            w.say(
+        step.note(
+            w.translate(
                 _(
                     "The first sum is smaller, and {shortest} is the shortest link: a {kind}.",
                     kind=kind,
@@ -190,19 +190,19 @@ def grashof(w: Writer, step: Step, sides: tuple[Term, ...], each: Candidate) -> 
             )
         )
     else:
-        step.say(w.say(_("The first sum is larger, so no link turns fully: a {kind}.", kind=kind)))
+        step.note(w.translate(_("The first sum is larger, so no link turns fully: a {kind}.", kind=kind)))
 
 
 def transmission(w: Writer, step: Step, sides: tuple[Term, ...]) -> None:
     """Transmission angles where the input lies along the frame: the smallest is one of them."""
     a, b, c, d = sides
-    step.say(w.say(_("The angle between coupler and output is extreme where the input lies along the frame:")))
+    step.note(w.translate(_("The angle between coupler and output is extreme where the input lies along the frame:")))
     for index, diagonal in (("1", d - a), ("2", d + a)):
         cosine = (b.squared + c.squared - diagonal.squared) / (TWO * b * c)
         step.find(w.angle("μ", math.acos(max(-1.0, min(1.0, cosine.value))), index), arccosine(cosine), "°")
     found = [item.value for item in step.equations[-2:]]
     smallest = min(min(angle, 180.0 - angle) for angle in found)
-    step.say(w.say(_("Smallest transmission angle: {angle}°.", angle=f"{smallest:.2f}")))
+    step.note(w.translate(_("Smallest transmission angle: {angle}°.", angle=f"{smallest:.2f}")))
 
 
 def signed_transmission(each: Candidate) -> Floats:
@@ -227,8 +227,8 @@ def branches(w: Writer, step: Step, each: Candidate) -> None:
         return
     o1, o2, b = points["O1"], points["O2"], each.positions["B"]
     turned = np.degrees(_one_way(np.angle(a - o1)))
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _(
                 "Input angle θ and transmission angle μ with the sign of its side; the link lengths "
                 "from the coordinates:"
@@ -236,7 +236,7 @@ def branches(w: Writer, step: Step, each: Candidate) -> None:
         )
     )
     columns = [
-        (w.say(_("position")), numbers(len(a))),
+        (w.translate(_("position")), numbers(len(a))),
         ("θ / °", decimals(turned, 4)),
         ("μ / °", degrees(signed_transmission(each))),
         (w.over("|O1A|"), w.lengths(np.abs(a - o1))),
@@ -244,8 +244,8 @@ def branches(w: Writer, step: Step, each: Candidate) -> None:
         (w.over("|O2B|"), w.lengths(np.abs(b - o2))),
     ]
     w.table(step, _("Transmission angle with its sign, and link lengths in every position"), columns)
-    step.say(
-        w.say(
+    step.note(
+        w.translate(
             _("μ keeps its sign and θ runs one way: all positions lie on one branch, in their order.")
             if not each.defects
             else _("The positions do not lie on one branch in their order: see the defects of the candidates.")
