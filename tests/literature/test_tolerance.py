@@ -134,7 +134,7 @@ def test_a_pressed_pin_that_turns_keeps_lagranges_equation() -> None:
     size, count = 2e-3, 720
     pins = {"B": Clearance(size, "rod", "pressed")}
     found = ToleranceStudy(lw.loads(text), clearances=pins, curves=("B.velocity.x",), steps=count).solve()
-    law = found.followed.mechanism.drivers["B_hole"].law
+    law = found.tracked_pins.mechanism.drivers["B_hole"].law
     speed = 2 * np.pi
 
     def places(phi: complex, theta: complex) -> tuple[complex, complex, complex, complex]:
@@ -173,7 +173,7 @@ def test_where_a_reaction_jumps_the_pins_cannot_follow_and_that_is_said() -> Non
     small = {"C": Clearance(5e-5, "toggle", "pressed")}
     asked = {"of": ("jaw.angular_velocity peak",), "curves": ("jaw.angular_velocity",), "samples": 64}
     found = ToleranceStudy(problem.mechanism, problem.dimensions, small, **asked).solve()  # type: ignore[arg-type]
-    gaps = np.flatnonzero(~found.followed.followed)
+    gaps = np.flatnonzero(~found.tracked_pins.tracked)
     assert 0 < len(gaps) < 10 and np.isnan(found.curve("jaw.angular_velocity")[1][gaps]).all()
 
 

@@ -96,8 +96,8 @@ def _fitted(
     ranked = blocks(solved, columns, asked)
     minimum = max(len(asked), 1)
     ranked = [*ranked[:minimum], *([last] if last else []), *ranked[minimum:]]
-    kept = fitting(first, ranked, session.width, session.translate, minimum=minimum)
-    names = {column.name for block in kept for column in block}
+    fitting_blocks = fitting(first, ranked, session.width, session.translate, minimum=minimum)
+    names = {column.name for block in fitting_blocks for column in block}
     efforts_shown = [column for column in last if column.name in names]
     shown = [column for column in columns.values() if column.name in names and column.quantity != "effort"]
     left = list(dict.fromkeys(block[0].owner for block in ranked if block[0].name not in names))

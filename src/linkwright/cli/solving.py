@@ -45,10 +45,10 @@ MOST_TURNS = 6
 
 @dataclass(frozen=True)
 class Solved:
-    """A motion, its forces where asked for, the indices of the rows that are shown, and what is to be said.
+    """A motion, its forces where asked for, the indices of the rows that are shown, and its warnings.
 
-    ``whole``: the positions are the cycle, not chosen ones; ``turns``: of how many turns the rows are the first, 0
-    where they are of all.
+    ``full_cycle``: the positions are the cycle, not chosen ones; ``turns``: of how many turns the rows are the first,
+    0 where they are of all.
     """
 
     motion: Motion
@@ -56,7 +56,7 @@ class Solved:
     rows: Indices
     warnings: tuple[Finding, ...] = ()
     trouble: LinkwrightError | None = None
-    whole: bool = False
+    full_cycle: bool = False
     turns: int = 0
 
     @property
@@ -99,7 +99,7 @@ class Solved:
     def between(self) -> bool:
         """Whether what is between the positions of a cycle is known; not of chosen positions, nor where it is not
         passed."""
-        return self.whole and self.analysis.cycle is not None
+        return self.full_cycle and self.analysis.cycle is not None
 
     def results(self) -> dict[Output, Floats]:
         """All results at the shown rows, SI."""
@@ -134,8 +134,8 @@ def solve(mechanism: Mechanism, warnings: list[Finding], options: Options) -> So
             forces = solve_forces(motion, static=options.static)
         except LinkwrightError as error:
             trouble = error
-    whole = options.at is None and options.times is None
-    return Solved(motion, forces, rows, tuple(warnings), trouble, whole, turns)
+    full_cycle = options.at is None and options.times is None
+    return Solved(motion, forces, rows, tuple(warnings), trouble, full_cycle, turns)
 
 
 def _turns(mechanism: Mechanism) -> int:
@@ -152,8 +152,8 @@ def chosen_motion(mechanism: Mechanism, options: Options, failures: Failures = "
     if options.at is not None:
         return solve_motion(mechanism, at=inputs(joined(options.at), mechanism), failures=failures)
     if options.times is not None:
-        given = places(joined(options.times), mechanism, "time", "--times")
-        return solve_motion(mechanism, times=given, failures=failures)
+        times = places(joined(options.times), mechanism, "time", "--times")
+        return solve_motion(mechanism, times=times, failures=failures)
     return None
 
 

@@ -77,7 +77,7 @@ class Parser:
         """The error with the values of its texts at a column."""
         return ExpressionError(message.format(**values), remedy.format(**values), self.text, column, code)
 
-    def whole_expression(self) -> Node:
+    def parse(self) -> Node:
         tree = self._binary(0)
         kind, token, column = self.tokens[self.at]
         if kind != "end":

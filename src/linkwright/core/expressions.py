@@ -157,7 +157,7 @@ def parse(text: str, variables: Collection[str] = (), *, prefer: Preferred = "un
             0,
         )
     parser = Parser(plain, variables, prefer)
-    tree = parser.whole_expression()
+    tree = parser.parse()
     return Expression(plain, tree, frozenset(parser.used))
 
 

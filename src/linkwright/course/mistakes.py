@@ -127,8 +127,8 @@ class Sheet:
     def __init__(self, mechanism: Mechanism, at: float) -> None:
         self.mechanism, self.at = mechanism, at
         self.lines = _lines(mechanism, at)
-        self.reckoned = Calculation(self.lines).values
-        self.values = self.reckoned()
+        self.evaluate = Calculation(self.lines).values
+        self.values = self.evaluate()
 
     def consequences(self) -> Iterator[Consequence]:
         """The answers of every usual mistake, at every place where it can be made."""
@@ -158,7 +158,7 @@ def degrees_for_radians(sheet: Sheet) -> Made:
     """The input's degrees are put into the functions as radians; or an angle is answered in radians."""
     q = next((line.result for line in sheet.lines if line.result.plain == "q"), None)
     if q is not None and q.degrees:
-        yield "q", sheet.reckoned(data={"q": math.degrees(q.amount)})
+        yield "q", sheet.evaluate(data={"q": math.degrees(q.amount)})
     radians = {
         each: math.radians(value) if each.dimension == "angle" else value for each, value in sheet.values.items()
     }
@@ -170,7 +170,7 @@ def rpm_for_radians(sheet: Sheet) -> Made:
     driver = next(iter(sheet.mechanism.drivers.values()))
     if sheet.mechanism.joints[driver.joint].coordinate == "turn":
         rate = next((line.result.amount for line in sheet.lines if line.result.plain == "q'"), 0.0)
-        yield "q'", sheet.reckoned(data={"q'": rate / RPM})
+        yield "q'", sheet.evaluate(data={"q'": rate / RPM})
 
 
 def wrong_assembly_mode(sheet: Sheet) -> Made:
@@ -182,7 +182,7 @@ def wrong_assembly_mode(sheet: Sheet) -> Made:
             line = sheet.lines[number]
             return formula.replaced(_negated("ρ")) if line.group == group and number > start else formula
 
-        yield group, sheet.reckoned(change)
+        yield group, sheet.evaluate(change)
 
 
 def _negated(name: str) -> Callable[[Term], Term | None]:
@@ -193,7 +193,7 @@ def missing_parenthesis(sheet: Sheet) -> Made:
     """Of a quotient only the last term is divided, or only the first factor divides; in one line of the solution."""
     for number, line in enumerate(sheet.lines):
         for wrong in _slips(line.formula):
-            yield line.result.plain, sheet.reckoned(_only(number, wrong))
+            yield line.result.plain, sheet.evaluate(_only(number, wrong))
     yield from _pairs(sheet)
 
 
@@ -211,7 +211,7 @@ def _pairs(sheet: Sheet) -> Made:
             def change(k: int, _: Term, formula: Term, n: int = number, a: Term = first, b: Term = second) -> Term:
                 return a if k == n else b if k == n + 1 else formula
 
-            yield f"{line.result.plain}, {follower.result.plain}", sheet.reckoned(change)
+            yield f"{line.result.plain}, {follower.result.plain}", sheet.evaluate(change)
 
 
 def _only(number: int, wrong: Term) -> Change:
@@ -266,12 +266,12 @@ def arctangent_quadrant(sheet: Sheet) -> Made:
     def principal(_: Term, values: list[float]) -> float:
         return math.degrees(math.atan(values[0] / values[1])) if values[1] else math.copysign(90.0, values[0])
 
-    yield "", sheet.reckoned(functions={"atan2": principal})
+    yield "", sheet.evaluate(functions={"atan2": principal})
     for number, line in enumerate(sheet.lines):
         if line.formula.op == "atan2":
             y, x = line.formula.args
             wrong = Term("atan2", (y / x, Term("number", amount=1.0)))
-            yield line.result.plain, sheet.reckoned(_only(number, wrong))
+            yield line.result.plain, sheet.evaluate(_only(number, wrong))
 
 
 def inertia_couple_sign(sheet: Sheet) -> Made:
@@ -280,7 +280,7 @@ def inertia_couple_sign(sheet: Sheet) -> Made:
 
     for chosen in dict.fromkeys((tuple(places), *((place,) for place in places))):
         where = ", ".join(sheet.lines[place].result.plain for place in chosen)
-        yield where, sheet.reckoned(partial(_reversed, chosen))
+        yield where, sheet.evaluate(partial(_reversed, chosen))
 
 
 def _reversed(chosen: tuple[int, ...], number: int, _: Term, formula: Term) -> Term:
@@ -297,7 +297,7 @@ def missing_coriolis(sheet: Sheet) -> Made:
         slides = any(name.startswith("s'") and not name.startswith("s''") for name in names)
         return ZERO if slides and any(name.startswith("ω") for name in names) else None
 
-    yield "", sheet.reckoned(lambda _, __, formula: formula.replaced(coriolis))
+    yield "", sheet.evaluate(lambda _, __, formula: formula.replaced(coriolis))
 
 
 def mass_centre_wrong_end(sheet: Sheet) -> Made:

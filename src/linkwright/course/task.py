@@ -123,12 +123,12 @@ class _Reading(SectionReading):
     def __init__(self, mechanism: Mechanism, section: Mapping[str, Any]) -> None:
         super().__init__(SECTION, "course", section)
         self.mechanism = mechanism
-        self.given = {key: each for key, each in (self.values or {}).items() if each is not None}
+        self.settings = {key: each for key, each in (self.values or {}).items() if each is not None}
 
     def task(self) -> Task:
         across = self.mechanism.across
-        at = self._quantity("at", self.given.get("at", USUAL_PLACE[across]), across)
-        ranges, tolerance = self._ranges(), self.given.get("tolerance", TOLERANCE)
+        at = self._quantity("at", self.settings.get("at", USUAL_PLACE[across]), across)
+        ranges, tolerance = self._ranges(), self.settings.get("tolerance", TOLERANCE)
         questions: tuple[Question, ...] = ()
         try:
             questions = () if at is None else self._questions(Sheet(self.mechanism, at))
@@ -147,7 +147,7 @@ class _Reading(SectionReading):
 
     def _ranges(self) -> dict[str, tuple[float, float]]:
         """Limits of the dimensions that change; the sizes of all links by a share by default."""
-        section = self.given.get("vary")
+        section = self.settings.get("vary")
         if section is None:
             sizes = {name: self.mechanism.dimension(name) for name in _usual_sizes(self.mechanism)}
             return {name: _by(SHARE, value) for name, value in sizes.items()}
@@ -180,7 +180,7 @@ class _Reading(SectionReading):
 
     def _questions(self, sheet: Sheet) -> tuple[Question, ...]:
         """The numbers asked for; those of the last group, and of what drives, by default."""
-        section = self.given.get("ask")
+        section = self.settings.get("ask")
         if section is None:
             return _usual_questions(sheet)
         names = {output.column: output for output in sheet.values}

@@ -82,7 +82,7 @@ class SweepRun:
         self.mechanism, self.columns, self.asked = mechanism, columns, asked if manner.sampled else ()
         self.positions, self.manner = positions, manner
         self.progress, self.backend = manner.progress or current_progress(), manner.backend
-        self._told = 0
+        self._reported = 0
         self.designs = len(next(iter(columns.values())))
         iterations = ITERATIONS if iterated(analysed(mechanism)) else 1
         self.traced = Traced(mechanism, columns, positions, iterations=iterations)
@@ -130,8 +130,8 @@ class SweepRun:
 
     def tell(self, done: int) -> None:
         """Tells how many designs are done, once each."""
-        if self.progress is not None and done > self._told:
-            self._told = done
+        if self.progress is not None and done > self._reported:
+            self._reported = done
             self.progress(done, self.designs)
 
     def _unsound(self) -> dict[int, str]:

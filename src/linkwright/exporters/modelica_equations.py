@@ -222,20 +222,20 @@ class Names:
     """
 
     def __init__(self) -> None:
-        self._given: dict[tuple[str, str], str] = {}
+        self._identifiers: dict[tuple[str, str], str] = {}
         self._used: set[str] = set()
 
     def of(self, kind: str, name: str) -> str:
         """The identifier of a link, point, guide or driver; the same one for the same ``kind`` and ``name``."""
-        if (kind, name) not in self._given:
+        if (kind, name) not in self._identifiers:
             base = identifier(name)
             found = base if base not in self._used else f"{kind}_{base}"
             count = 2
             while found in self._used:
                 found, count = f"{kind}_{base}_{count}", count + 1
-            self._given[kind, name] = found
+            self._identifiers[kind, name] = found
             self._used.add(found)
-        return self._given[kind, name]
+        return self._identifiers[kind, name]
 
 
 def identifier(name: str) -> str:

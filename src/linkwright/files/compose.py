@@ -154,7 +154,7 @@ class _Converter:
     def mapping(self, found: MappingNode) -> Mapping:
         start = found.start_mark
         made = Mapping(start.line, start.column, start.index, found.end_mark.index, [], found.flow_style)
-        seen: dict[str, Entry] = {}
+        first_entries: dict[str, Entry] = {}
         merged: list[Node] = []
         for key_node, value_node in found.value:
             key = self.node(key_node)
@@ -163,7 +163,7 @@ class _Converter:
             if isinstance(key, Scalar) and key.text == "<<" and key.plain:
                 merged.append(value)
             else:
-                self.entry(made, key, value, seen)
+                self.entry(made, key, value, first_entries)
             self.path.pop()
         for value in merged:
             self.merge(made, value)

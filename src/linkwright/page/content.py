@@ -102,7 +102,7 @@ def _texts(mechanism: Mechanism, text: str) -> Plain:
     """Name, purpose and source in every language; the text of the file."""
     texts_of_model = {"name": mechanism.name, "purpose": mechanism.purpose, "source": mechanism.source}
     translated = {
-        key: {each: in_language(given, each) for each in LANGUAGES} for key, given in texts_of_model.items()
+        key: {each: in_language(versions, each) for each in LANGUAGES} for key, versions in texts_of_model.items()
     }
     return {**translated, "text": text}
 

@@ -226,13 +226,13 @@ class Demand(Field):
         return [*values, *[math.nan] * (len(dimensions) - count)]
 
     def _quantity(
-        self, reader: Reader, place: Place, given: Mapping[str, Any], bare: set[str], node: Node, dimension: str
+        self, reader: Reader, place: Place, values: Mapping[str, Any], bare: set[str], node: Node, dimension: str
     ) -> float | None:
         """One quantity; the finding of the first ``bare`` number of a list offers the key for the unit of all."""
         if not isinstance(node, Scalar):
             self._wrong(reader, node, place)
             return None
-        unit = given.get(self.unit_keys.get(dimension, ""))
+        unit = values.get(self.unit_keys.get(dimension, ""))
         try:
             return amount(f"{node.text} {unit}" if unit and _is_bare(node.text) else node.text, dimension)
         except QuantityError as error:

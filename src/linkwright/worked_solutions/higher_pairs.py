@@ -122,8 +122,8 @@ class PairClosure(Closure):
             self._once(step, self._constant("c", self.rest), "m")
 
     def _once(self, step: Step, term: Term, unit: str) -> None:
-        if not term.is_zero and term.plain not in self.book.given:
-            self.book.given.add(term.plain)
+        if not term.is_zero and term.plain not in self.book.introduced:
+            self.book.introduced.add(term.plain)
             step.give(term, unit)
 
     # rates ------------------------------------------------------------------------------------

@@ -76,9 +76,9 @@ class Placing:
     def follow(self, step: Step, joint: TreeJoint) -> None:
         """Notes the angle of a link that a guide, a weld or a driver turns."""
         if not (joint.free and joint.turns):
-            self.angle(step, joint.child, self._cam_followed(joint))
+            self.angle(step, joint.child, self._driven_angle(joint))
 
-    def _cam_followed(self, joint: TreeJoint) -> Term:
+    def _driven_angle(self, joint: TreeJoint) -> Term:
         """The angle of such a link, from that of its parent."""
         book = self.book
         parent = book.turn(joint.parent)
@@ -205,7 +205,7 @@ class Places(Placing):
         known: dict[str, Term] = {}
         for joint in group.tree:
             if not (joint.free and joint.turns):
-                known[book.turn(joint.child).plain] = self._cam_followed(joint).put(known)
+                known[book.turn(joint.child).plain] = self._driven_angle(joint).put(known)
         for connection in group.joints:
             if connection.slides and connection.a != "frame":
                 turn, along = self._guide_turn(connection.joint), book.slide(connection.joint).along

@@ -49,7 +49,7 @@ class SymbolTable:
         self.index = index
         self.translate = translate
         self.numbers = {"frame": 0} | {name: i for i, name in enumerate(self.mechanism.links, 1)}
-        self.given: set[str] = set()
+        self.introduced: set[str] = set()
         self._spots: dict[str, PointState] = {}
 
     # links --------------------------------------------------------------------------------

@@ -226,8 +226,8 @@ class Wheels:
         joint = book.mechanism.joints[cut.joint]
         first, rotations = joint.joined[0], joint.sums(book.mechanism)[0]
         arm = lever(book, cut.joint, first, contact.scale * rotations[first])
-        if arm.plain not in book.given:
-            book.given.add(arm.plain)
+        if arm.plain not in book.introduced:
+            book.introduced.add(arm.plain)
             step.give(arm, "m")
         return arm
 

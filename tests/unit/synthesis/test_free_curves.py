@@ -119,7 +119,7 @@ def test_one_more_dyad_leaves_the_curve() -> None:
             assert np.abs(after[-1] - before[-1]).max() < 1e-12
             assert each.links == design.links + 2 and each.joints - design.joints in (2, 3)
             own = node_paths(design.nodes, design.x, turn)[1]
-            assert least >= 0.999 * min(own, 0.7 * math.sin(target.least) ** 2)
+            assert least >= 0.999 * min(own, 0.7 * math.sin(target.min_angle) ** 2)
             inserted += each.nodes[-4] != POINT or each.nodes[-3] != design.joints - 1
 
 

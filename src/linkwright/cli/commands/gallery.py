@@ -107,5 +107,5 @@ def title_and_purpose(name: str) -> dict[str, str]:
     first, _unused, _unused2 = gallery.file(name).read_text(encoding="utf-8").partition("\nsource:")
     root, _unused3 = read_nodes(first, name)
     assert root is not None
-    given = Reader(name).free(root)
-    return {"name": name, "title": LocalizedText(given["name"]), "purpose": LocalizedText(given["purpose"])}
+    header = Reader(name).free(root)
+    return {"name": name, "title": LocalizedText(header["name"]), "purpose": LocalizedText(header["purpose"])}

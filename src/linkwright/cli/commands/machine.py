@@ -12,7 +12,7 @@ from linkwright.machine.drive_options import DriveOptions
 from linkwright.words import _
 
 CURVE_OPTIONS = ("scale", "load", "period", "speed", "inertia", "mass", "gyration")
-NOTHING_GIVEN = _(
+NO_INPUT = _(
     "name a model file, or give a torque diagram with --areas or --torque; see linkwright machine --help",
     code="machine.nothing_given",
 )
@@ -89,7 +89,7 @@ def _refuse_contradictions(options: Options) -> None:
     diagram = next((f"--{each}" for each in ("areas", "torque") if getattr(options, each) is not None), None)
     if options.file is None:
         if diagram is None:
-            raise UsageError(NOTHING_GIVEN)
+            raise UsageError(NO_INPUT)
         if options.output is not None:
             raise UsageError(OUTPUT_NEEDS_FILE)
     else:

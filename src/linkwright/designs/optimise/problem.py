@@ -212,7 +212,7 @@ SECTION = Keys(
 
 
 def problem(mechanism: Mechanism, settings: Mapping[str, Any] | None = None, source: str = "") -> Problem:
-    """A problem from the section ``optimize``, or from what is ``given`` in its place.
+    """A problem from the section ``optimize``, or from ``settings`` in its place.
 
     Raises ModelError with all findings.
     """
@@ -227,9 +227,9 @@ class _Reading(SectionReading):
     def __init__(self, mechanism: Mechanism, settings: Mapping[str, Any], source: str) -> None:
         self.mechanism = mechanism
         known = SECTION.fields.keys() | {"yield"}
-        self.given = {key: each for key, each in settings.items() if key not in known or not _empty(each)}
-        unchanged = len(self.given) == len(settings)
-        super().__init__(SECTION, "optimize", settings if unchanged else self.given, source)
+        self.settings = {key: each for key, each in settings.items() if key not in known or not _empty(each)}
+        unchanged = len(self.settings) == len(settings)
+        super().__init__(SECTION, "optimize", settings if unchanged else self.settings, source)
 
     def problem(self) -> Problem:
         variables = self._variables()
@@ -254,7 +254,7 @@ class _Reading(SectionReading):
             )
         demanded, tolerances = self._read("keep"), self._tolerances()
         demands = tuple(replace(each, text=text) for text, each in demanded.items())
-        if "robust" in self.given and not tolerances:
+        if "robust" in self.settings and not tolerances:
             self.note(
                 "tolerance",
                 _("robust: needs tolerance: with ± of dimensions, such as crank.length: 0.1 mm"),
@@ -270,7 +270,7 @@ class _Reading(SectionReading):
 
     def _defined(self) -> tuple[dict[str, str], dict[str, PathError]]:
         """Texts and path errors by name, those of programs as they are."""
-        own = {} if self.values.get("define") is None else self.given["define"]
+        own = {} if self.values.get("define") is None else self.settings["define"]
         found = {**self._read("define"), **{str(n): e for n, e in own.items() if isinstance(e, PathError)}}
         paths = {name: each for name, each in found.items() if isinstance(each, PathError)}
         return {name: each for name, each in found.items() if name not in paths}, paths
@@ -278,7 +278,7 @@ class _Reading(SectionReading):
     def _texts(self, key: str, paths: dict[str, PathError]) -> list[str]:
         """Numbers by name; a path error that stands alone gets one."""
         read, found = self.values.get(key), list[str]()
-        value = self.given.get(key, read)
+        value = self.settings.get(key, read)
         for each in () if read is None else (value,) if isinstance(read, str) else value:
             if isinstance(each, PathError):
                 found.append(f"path_error_{len(paths) + 1}" if paths else "path_error")

@@ -133,7 +133,7 @@ HALVINGS, LEFT = 8, 0.5
 
 
 @dataclass(frozen=True)
-class FollowedPins:
+class TrackedPins:
     """The mechanism with its gaps as links, and the ``residual`` (n,) rad: the angle between a pin's offset and its
     reaction, the largest of all pins."""
 
@@ -143,7 +143,7 @@ class FollowedPins:
     _known: dict[str, Floats] = field(default_factory=dict, compare=False, repr=False)
 
     @property
-    def followed(self) -> Flags:
+    def tracked(self) -> Flags:
         """Positions (n,) at which every pin lies where its reaction presses it."""
         return np.asarray(self.residual <= LAG)
 
@@ -154,7 +154,7 @@ class FollowedPins:
             one = {address: np.array([self.mechanism.dimension(address)])}
             name = self._renamed(output)
             ((_unused, found),) = sweep_curves(self.mechanism, one, outputs=[name], steps=self.study.steps)
-            self._known[output] = np.where(self.followed, found[name][0], np.nan)
+            self._known[output] = np.where(self.tracked, found[name][0], np.nan)
         return self._known[output]
 
     def _renamed(self, output: str) -> str:
@@ -184,7 +184,7 @@ def gap_name(hole: str) -> str:
     return f"{hole}_gap"
 
 
-def follow(study: Tolerances, nominal: Forces) -> FollowedPins:
+def track_pins(study: Tolerances, nominal: Forces) -> TrackedPins:
     """The pins led by their reactions over the full cycle.
 
     Raises LinkwrightError where the cycle does not repeat, or the mechanism with its gaps cannot be solved.
@@ -201,7 +201,7 @@ def follow(study: Tolerances, nominal: Forces) -> FollowedPins:
     holes = {pin: study.clearances[pin].on for pin in study.holes("pressed")}
     angles = {pin: _angles(nominal, pin, on) for pin, on in holes.items()}
     jumps = {pin: _jumps(study, nominal, pin, on) for pin, on in holes.items()}
-    best: FollowedPins | None = None
+    best: TrackedPins | None = None
     for _unused in range(ROUNDS):
         mechanism = study.prepared
         for pin in holes:
@@ -212,7 +212,7 @@ def follow(study: Tolerances, nominal: Forces) -> FollowedPins:
         residual = np.max([np.abs(_turn(found[pin] - angles[pin])) for pin in holes], axis=0)
         if best is not None and not _better(residual, best.residual):
             break
-        best, angles = FollowedPins(study, mechanism, residual), found
+        best, angles = TrackedPins(study, mechanism, residual), found
         if residual.max() < SETTLED:
             break
     assert best is not None

@@ -104,7 +104,7 @@ class Spread(SpreadNumbers, Result):
         if self.study.holes("pressed"):
             _unused2 = self.forces
             if not all(is_position(self.study, output) for output in self._curves):
-                _unused3 = self.followed
+                _unused3 = self.tracked_pins
 
     def reason(self, text: str, translate: Translate) -> str:
         """Whether linear and Monte Carlo agree, and if not, why."""
@@ -194,7 +194,7 @@ class Spread(SpreadNumbers, Result):
         rows = [Row("nominal", self.nominal(text), kind)]
         shift = self.shift(text)
         if self.study.holes("pressed"):
-            gaps = int((~self.followed.followed).sum()) if math.isnan(shift) else 0
+            gaps = int((~self.tracked_pins.tracked).sum()) if math.isnan(shift) else 0
             unknown = _("not tracked (the pins cannot follow at {count} positions)", count=gaps) if gaps else ""
             rows.append(Row("shift", shift, kind, text=unknown))
         if self.swept is not None:
@@ -231,8 +231,8 @@ class Spread(SpreadNumbers, Result):
         """How near the pins lie to where their reactions press them, and where they cannot."""
         if not self.study.holes("pressed") or is_position(self.study, output):
             return ()
-        settled = self.followed.followed
-        off = float(self.followed.residual[settled].max()) if settled.any() else math.nan
+        settled = self.tracked_pins.tracked
+        off = float(self.tracked_pins.residual[settled].max()) if settled.any() else math.nan
         sentences = (
             [
                 translate(

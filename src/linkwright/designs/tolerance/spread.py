@@ -15,7 +15,7 @@ from linkwright.cycle.summaries import Summary
 from linkwright.designs.design_numbers import OF_VALUES
 from linkwright.designs.sensitivity import CURVE, Sensitivity, sensitivity
 from linkwright.designs.sweep import Sweep, sweep, sweep_curves
-from linkwright.designs.tolerance.pins import FollowedPins, follow, is_position, require_forces, shifts
+from linkwright.designs.tolerance.pins import TrackedPins, is_position, require_forces, shifts, track_pins
 from linkwright.designs.tolerance.problem import Limit, Tolerances
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.forces import Forces
@@ -159,9 +159,9 @@ class SpreadNumbers:
         return require_forces(self.study)
 
     @cached_property
-    def followed(self) -> FollowedPins:
+    def tracked_pins(self) -> TrackedPins:
         """The pins led by their own reactions over the cycle, for rates and forces."""
-        return follow(self.study, self.forces)
+        return track_pins(self.study, self.forces)
 
     def nominal(self, text: str) -> float:
         """A summary of the nominal mechanism without clearances."""
@@ -225,7 +225,7 @@ class SpreadNumbers:
         if not self.study.holes("pressed"):
             return np.zeros(count)
         if not is_position(self.study, output):
-            return self.followed.curve(output) - self.derivatives.curve(output)
+            return self.tracked_pins.curve(output) - self.derivatives.curve(output)
         return shifts(self.study, lambda address: self.derivatives.slope(output, address), self.forces)
 
     def shift(self, text: str) -> float:

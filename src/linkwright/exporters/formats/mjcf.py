@@ -116,7 +116,7 @@ class Bodies:
                 if cut.slides:
                     self.riders.setdefault(cut.a, []).append(cut)
         masses = [link.mass for link in self.mechanism.links.values()]
-        self.least_mass = MIN_MASS * (max(masses, default=0.0) or 1.0)
+        self.min_mass = MIN_MASS * (max(masses, default=0.0) or 1.0)
         spans = [span(link) for link in self.mechanism.links.values()]
         self.size = max([*spans, span(self.mechanism.frame)], default=0.0) or 1.0
 
@@ -141,8 +141,8 @@ class Bodies:
         body = self._placed(name, self.pose(step.parent), self.pose(name))
         self._joint(body, step)
         link = self.mechanism.links[name]
-        mass = max(link.mass, self.least_mass)
-        inertia = max(link.inertia, self.least_mass * (span(link) or 0.1 * self.size) ** 2 / 12)
+        mass = max(link.mass, self.min_mass)
+        inertia = max(link.inertia, self.min_mass * (span(link) or 0.1 * self.size) ** 2 / 12)
         _inertial(body, link.centre, mass, inertia)
         self._sites(body, link)
         self._shape(body, link)
@@ -252,7 +252,7 @@ class Bodies:
             found = Coordinate(cut.joint, slide.displacement[self.index], slide.velocity[self.index], None)
             axis = numbers((math.cos(joint.block_angle), math.sin(joint.block_angle), 0.0))
             ET.SubElement(rider, "joint", name=found.name, type="slide", axis=axis, ref=numbers([found.value]))
-            _inertial(rider, (0.0, 0.0), self.least_mass, self.least_mass * self.size**2 / 12)
+            _inertial(rider, (0.0, 0.0), self.min_mass, self.min_mass * self.size**2 / 12)
             self.coordinates.append(found)
             body.append(rider)
 

@@ -179,7 +179,7 @@ def _ranked(
     found = [(each, _facts(each, target)) for each in designs]
     within = [(each, facts) for each, facts in found if Placed(each, target).keeps()]
     constraint_note, none = TURNING if target.turning else SWINGING
-    asked = {"angle": f"{math.degrees(target.least):g}", "size": f"{target.largest:g}"}
+    asked = {"angle": f"{math.degrees(target.min_angle):g}", "size": f"{target.largest:g}"}
     notes = [
         constraint_note.format(**asked),
         _(
@@ -199,7 +199,7 @@ def _ranked(
         target.closed,
         target.centre,
         target.radius,
-        target.least,
+        target.min_angle,
         target.largest,
         target.turning,
         search.seconds,

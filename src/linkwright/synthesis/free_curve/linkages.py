@@ -60,14 +60,14 @@ class Placed:
 
     def turns(self) -> bool:
         """Whether the crank turns fully within the demand."""
-        return self.target.turning or self.over_a_turn() >= self.target.least
+        return self.target.turning or self.over_a_turn() >= self.target.min_angle
 
     def _smallest_angle(self, crank: Floats) -> float:
         return math.asin(math.sqrt(max(node_paths(self.design.nodes, self.design.x, crank)[1], 0.0)))
 
     def keeps(self) -> bool:
         """Whether the target's demands hold."""
-        return self.transmission_angle() >= self.target.least and self.size() <= self.target.largest
+        return self.transmission_angle() >= self.target.min_angle and self.size() <= self.target.largest
 
 
 def linkage_of(placed: Placed) -> Linkage:

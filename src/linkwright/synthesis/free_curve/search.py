@@ -47,7 +47,7 @@ class Level(NamedTuple):
     joints: int
     atlas: int | None
     part: float
-    apart: bool = False
+    separate: bool = False
 
 
 SIX_BARS, SLIDING = 1, 4
@@ -56,9 +56,9 @@ ONE_DYAD = 0, SLIDING
 #: each would crowd out the other.
 LEVELS = (
     Level(5, 0, 0.5),
-    Level(5, SLIDING, 0.5, apart=True),
+    Level(5, SLIDING, 0.5, separate=True),
     Level(8, SIX_BARS, 3.5),
-    Level(8, 3, 2.5, apart=True),
+    Level(8, 3, 2.5, separate=True),
     Level(9, 2, 2.5),
     Level(10, 2, 3.5),
     Level(12, None, 7.0),
@@ -155,7 +155,7 @@ def _lacking(pools: dict[Level, Pool], level: Level, joints: tuple[int, ...]) ->
     return [
         pool
         for each, pool in pools.items()
-        if level.joints - each.joints in joints and pool.designs and not level.apart
+        if level.joints - each.joints in joints and pool.designs and not level.separate
     ]
 
 
@@ -242,7 +242,7 @@ class Search:
     @cached_property
     def key(self) -> str:
         """What the pools depend on but for the clock."""
-        return identity(*self.target.given, self.joints, self.seconds, self.seed)
+        return identity(*self.target.arguments, self.joints, self.seconds, self.seed)
 
     def _pool(self, designs: list[Any]) -> Pool:
         """A pool restored from a checkpoint."""

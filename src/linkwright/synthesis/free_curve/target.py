@@ -55,15 +55,17 @@ class Target:
     """A curve (complex, at least two different points), closed or open, as the search sees it.
 
     Args:
-        least: minimum transmission angle, rad.
+        min_angle: minimum transmission angle, rad.
         largest: maximum distance of a node from the curve's centroid, in its rms radii.
         turning: both hold over a full turn of the crank; without it an open curve's hold on the drawn part.
     """
 
-    def __init__(self, curve: Complexes, closed: bool, least: float, largest: float, turning: bool = True) -> None:
-        self.given = curve, closed, least, largest, turning
+    def __init__(
+        self, curve: Complexes, closed: bool, min_angle: float, largest: float, turning: bool = True
+    ) -> None:
+        self.arguments = curve, closed, min_angle, largest, turning
         even = even_points(curve, LINE, closed)
-        self.closed, self.least, self.largest, self.turning = closed, least, largest, turning or closed
+        self.closed, self.min_angle, self.largest, self.turning = closed, min_angle, largest, turning or closed
         self.centre = complex(even.mean())
         self.radius = float(np.sqrt(np.mean(np.abs(even - self.centre) ** 2)))
         self.points = (even - self.centre) / self.radius
@@ -75,7 +77,7 @@ class Target:
 
     def __reduce__(self) -> tuple[type[Target], tuple[object, ...]]:
         """Pickled by its arguments, which are short."""
-        return Target, self.given
+        return Target, self.arguments
 
     def descend(
         self, design: Design, iterations: int, fineness: Fineness = MIDDLE, *, weight: float = 1.0, more: float = 0.0
@@ -86,7 +88,7 @@ class Target:
         """
         points = self._points[fineness.points, design.mirror]
         x = design.x.copy()
-        limits = [np.sin(self.least + more) ** 2, self.largest * (1 - 2 * more), weight, fineness.soft**2]
+        limits = [np.sin(self.min_angle + more) ** 2, self.largest * (1 - 2 * more), weight, fineness.soft**2]
         options = np.array(limits)
         arrays = [each.ctypes.data for each in (x, points, options, _ROOM.array)]
         value = kernels()(
@@ -126,7 +128,7 @@ class Target:
     def grown(self, design: Design, numbers: Floats, most: int) -> list[Design]:
         """Designs with one more dyad after rows of nine uniform numbers, the most promising first."""
         draws, points = len(numbers), self._points[COARSE.points, design.mirror]
-        options = np.array([np.sin(self.least) ** 2])
+        options = np.array([np.sin(self.min_angle) ** 2])
         made, x = np.zeros((draws, ROWS), np.int64), np.zeros((draws, NUMBERS))
         counts, gains, own = np.zeros(draws, np.int64), np.zeros(draws), design.x.copy()
         arrays = [each.ctypes.data for each in (options, _ROOM.array)]
@@ -161,7 +163,7 @@ class Target:
         nodes, x, room = (each.ctypes.data for each in (design.nodes, design.x, _ROOM.array))
         joints, full_turn = design.joints, int(self.turning)
         smallest = kernels()("place", nodes, joints, TURN, TURN, full_turn, x, room, room + 8 * TURN * joints)
-        if smallest < np.sin(self.least / 2) ** 2:
+        if smallest < np.sin(self.min_angle / 2) ** 2:
             return replace(fine, value=FAR)
         fine = replace(fine, value=max(fine.value, self._unseen(design)))
         return replace(fine, misses=self.misses(design))
