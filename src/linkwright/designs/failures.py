@@ -16,7 +16,7 @@ from linkwright.core.arrays import Flags, Floats, Indices
 from linkwright.core.inputs import Input, turned
 from linkwright.core.outputs import Output
 from linkwright.core.search import lowest
-from linkwright.designs.design_numbers import changes_of, sentence_of
+from linkwright.designs.metrics_of_designs import changes_of, sentence_of
 from linkwright.designs.traced_outputs import Traced
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program

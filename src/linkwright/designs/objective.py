@@ -15,7 +15,7 @@ from linkwright.analysis.of_designs import MetricsOfDesigns, NumbersOfDesigns, n
 from linkwright.core.arguments import STEPS, one_of, require
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
-from linkwright.designs.design_numbers import side_by_side
+from linkwright.designs.metrics_of_designs import side_by_side
 from linkwright.designs.objective_terms import (
     NO_GRADIENTS,
     Builder,

@@ -15,7 +15,7 @@ from linkwright.core.attached import PlotMixin
 from linkwright.core.data import Frozen, locked
 from linkwright.core.table import Amount, Cell, Table, Tabular, unused
 from linkwright.cycle.summaries import Summary
-from linkwright.designs.design_numbers import OF_VALUES
+from linkwright.designs.metrics_of_designs import OF_VALUES
 from linkwright.designs.objective import over_metrics
 from linkwright.designs.objective_terms import differentiable
 from linkwright.designs.slopes import FRICTION_SLOPE, Slopes, known_loads

@@ -24,8 +24,8 @@ from linkwright.designs.alternatives import Alternative
 from linkwright.designs.checkpoints import identity
 from linkwright.designs.cluster import current, in_turn
 from linkwright.designs.criteria import Criterion, criteria
-from linkwright.designs.design_numbers import numbers_of
 from linkwright.designs.failures import Failure
+from linkwright.designs.metrics_of_designs import numbers_of
 from linkwright.designs.ranges import Range, grid, sobol
 from linkwright.designs.sweep import sweep
 from linkwright.designs.varied_dimensions import varied_ranges

@@ -21,8 +21,8 @@ from linkwright.core.quantity import shown
 from linkwright.core.table import Table, Tabular, columns_table, unused
 from linkwright.cycle.summaries import Summary
 from linkwright.designs.cluster import current, in_order, in_turn
-from linkwright.designs.design_numbers import OF_VALUES, swept_numbers
 from linkwright.designs.failures import Failure, explained
+from linkwright.designs.metrics_of_designs import OF_VALUES, swept_numbers
 from linkwright.designs.sweep_run import Manner, SweepRun
 from linkwright.designs.varied_dimensions import design_values, refuse_moved_positions
 from linkwright.errors import LinkwrightError, RequestError

@@ -13,8 +13,8 @@ from linkwright.core.progress import Progress, current_progress, paced
 from linkwright.cycle.load_limits import FoundLimits
 from linkwright.cycle.summaries import Summary, finished, reductions
 from linkwright.designs.checkpoints import checkpointed, identity
-from linkwright.designs.design_numbers import changes_of, motion_alone, outputs_alone, places_in, summary_of
 from linkwright.designs.failures import ChangePoints, near_enough
+from linkwright.designs.metrics_of_designs import changes_of, motion_alone, outputs_alone, places_in, summary_of
 from linkwright.designs.traced_outputs import NEAREST, VALID, LoadedCycle, Traced, loaded_cycle
 from linkwright.errors import LinkwrightError, SelfCheckError
 from linkwright.events.path_tracker import TrackedStates, tracked_states

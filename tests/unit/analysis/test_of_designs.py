@@ -33,7 +33,7 @@ import linkwright as lw
 from linkwright.analysis import METRICS
 from linkwright.analysis.of_designs import NumbersOfDesigns, numbers_of_designs
 from linkwright.cycle.solved import Solved
-from linkwright.designs.design_numbers import side_by_side
+from linkwright.designs.metrics_of_designs import side_by_side
 from linkwright.designs.prepared import Prepared
 from linkwright.designs.sweep_run import SweepRun
 

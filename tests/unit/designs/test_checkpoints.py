@@ -13,7 +13,7 @@ import linkwright as lw
 from linkwright.analysis.of_designs import NumbersOfDesigns
 from linkwright.cli import main
 from linkwright.core.arrays import Floats
-from linkwright.designs import checkpoints, design_numbers
+from linkwright.designs import checkpoints, metrics_of_designs
 from linkwright.designs.checkpoints import _made, _plain
 from linkwright.designs.criteria import Criterion
 from linkwright.designs.study import PIECE, _Work
@@ -79,7 +79,7 @@ def test_numbers_of_a_sweep_are_kept_piece_by_piece_and_one_by_one(
         raise AssertionError("found again")
 
     monkeypatch.setattr(NumbersOfDesigns, "evaluate", never)
-    monkeypatch.setattr(design_numbers, "_alone", never)
+    monkeypatch.setattr(metrics_of_designs, "_alone", never)
     with lw.checkpointing(stopped.value.state, crank.name, "asked"):
         resumed = lw.sweep(crank, {"coupler.length": lengths}, outputs=asked, partial=True)
     for each in asked:

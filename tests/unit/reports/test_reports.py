@@ -88,12 +88,12 @@ def test_an_unknown_element_is_refused_and_the_rest_is_there(monkeypatch: pytest
 
 
 def test_an_error_of_the_program_does_not_end_the_report(monkeypatch: pytest.MonkeyPatch) -> None:
-    from linkwright.reports.sections import design_numbers
+    from linkwright.reports.sections import metrics
 
     def broken(case: ReportContext, rows: object) -> object:
         raise ZeroDivisionError("float division")
 
-    monkeypatch.setattr(design_numbers, "_quick_return", broken)
+    monkeypatch.setattr(metrics, "_quick_return", broken)
     found = report("gallery:crank_rocker", sections=["limits", "structure"])
     assert found.broken and "ZeroDivisionError" in found.missing[0]
     heads = [b.text for b in found.document.blocks if isinstance(b, Heading)]

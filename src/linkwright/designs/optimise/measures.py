@@ -21,7 +21,7 @@ from linkwright.designs.alternatives import Alternative
 from linkwright.designs.checkpoints import current_checkpoints, identity
 from linkwright.designs.cluster import current, in_turn
 from linkwright.designs.criteria import criterion
-from linkwright.designs.design_numbers import side_by_side
+from linkwright.designs.metrics_of_designs import side_by_side
 from linkwright.designs.optimise.paths import PathErrors
 from linkwright.designs.optimise.problem import Problem
 from linkwright.designs.varied_dimensions import refuse_moved_positions

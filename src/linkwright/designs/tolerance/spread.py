@@ -12,7 +12,7 @@ import numpy as np
 from linkwright.analysis.by_name import wanted
 from linkwright.core.arrays import Floats, Integers
 from linkwright.cycle.summaries import Summary
-from linkwright.designs.design_numbers import OF_VALUES
+from linkwright.designs.metrics_of_designs import OF_VALUES
 from linkwright.designs.sensitivity import CURVE, Sensitivity, sensitivity
 from linkwright.designs.sweep import Sweep, sweep, sweep_curves
 from linkwright.designs.tolerance.pins import TrackedPins, is_position, require_forces, shifts, track_pins
