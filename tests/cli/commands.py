@@ -105,5 +105,5 @@ def errors_said() -> Iterator[list[LinkwrightError]]:
 
     with pytest.MonkeyPatch.context() as patch:
         for kind in (LinkwrightError, ModelError):
-            patch.setattr(kind, "say", noted(kind.translate))
+            patch.setattr(kind, "translate", noted(kind.translate))
         yield said

@@ -21,7 +21,7 @@ specification.loader.exec_module(codes)
 #: Names of sections, which say where and not what.
 SECTIONS = {"", "report", "course", "optimize", "synthesis", "motion"}
 #: What makes a text of one language of a sentence.
-SAID = {"say", "str", "format", "speaker", "join"}
+SAID = {"translate", "str", "format", "speaker", "join"}
 
 
 def named(node: ast.AST) -> str:

@@ -56,7 +56,7 @@ class _Unsaid(ast.NodeTransformer):
     def visit_Call(self, node: ast.Call) -> ast.AST:
         self.generic_visit(node)
         asked = [each for each in node.args if isinstance(each, ast.Constant) and each.value in ("en", "zh")]
-        if asked and isinstance(node.func, ast.Attribute) and node.func.attr == "say":
+        if asked and isinstance(node.func, ast.Attribute) and node.func.attr == "translate":
             return node.func.value
         node.args = [each for each in node.args if each not in asked]
         node.keywords = [each for each in node.keywords if each.arg != "language"]

@@ -70,7 +70,7 @@ def _said(value: object, language: str) -> Iterator[str]:
     if isinstance(value, tuple | list):
         for each in value:
             yield from _said(each, language)
-    elif hasattr(value, "say"):
+    elif type(value) is not str and hasattr(value, "translate"):
         yield value.translate(language)
     elif hasattr(value, "text"):
         yield value.text(language)
