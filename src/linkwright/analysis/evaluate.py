@@ -201,6 +201,11 @@ class ApplicableMetrics:
     inapplicable: Sequence[str] = ()
     error: LinkwrightError | None = None
 
+    def errors(self, language: str = "en") -> list[str]:
+        """Everything that failed, in a language."""
+        found = [in_language(each, language) for each in self.inapplicable]
+        return found if self.error is None else [*found, self.error.translate(language)]
+
 
 def applicable_metrics(
     mechanism: Mechanism,

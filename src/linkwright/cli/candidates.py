@@ -10,12 +10,11 @@ from linkwright.cli.errors import UsageError
 from linkwright.cli.files import atomic_write, refuse_existing, write_diagram
 from linkwright.cli.options import Options
 from linkwright.cli.session import Session
-from linkwright.core.table import Amount, Cell, Table
 from linkwright.files.source import GALLERY
 from linkwright.filesystem import make_folder
 from linkwright.filesystem import refuse_folder as refuse_unusable
 from linkwright.synthesis.names import TASK_NAMES
-from linkwright.words import _, pgettext
+from linkwright.words import _
 
 if TYPE_CHECKING:
     from linkwright.synthesis.result import Synthesis
@@ -50,7 +49,8 @@ def refuse_folder(name: str | None, task: str, *, force: bool) -> None:
 
 def show(found: Synthesis, options: Options, session: Session) -> None:
     """Writes the candidates as model files and in a diagram where asked, and prints them with their loads."""
-    loads = [] if options.mass is None else [each.loads(options.mass, speed=options.speed) for each in found]
+    if options.mass is not None:
+        found = found.with_loads(options.mass, speed=options.speed)
     written: list[Path | str] = []
     for index in range(0 if options.output is None else len(found)):
         path = _model_path(make_folder(options.output), found.task, index)
@@ -58,30 +58,13 @@ def show(found: Synthesis, options: Options, session: Session) -> None:
         atomic_write(path, text, force=options.force)
         written.append(path)
     write_diagram(found, options, session)
-    worked = found.worked(session.language) if options.worked else None
-    if session.json:
-        data = found.data() | ({} if worked is None else {"worked": worked.data()})
-        for candidate, numbers in zip(data["candidates"], loads, strict=False):
-            candidate |= numbers
-        session.show_data({"ok": True, **data})
-        return
-    if worked is None:
-        session.show_tables(found)
-    else:
-        session.show(worked.text())
-    if loads:
-        session.show("", *_load_table(loads).lines(session.language))
-    session.show_written(*written, options.plot)
+    text, data = "", {}
+    if options.worked:
+        worked = found.worked(session.language)
+        loads = ("\n".join(each.lines(session.language)) for each in found.load_tables())
+        text, data = "\n\n".join([worked.text(), *loads]), {"worked": worked.data()}
+    session.show_result(found, *written, options.plot, text=text, data=data, spaced=False)
 
 
 def _model_path(folder: Path, task: str, index: int) -> Path:
     return folder / f"{task}_{index + 1}.yaml"
-
-
-def _load_table(loads: Sequence[dict[str, float]]) -> Table:
-    head = (_("no."), _("peak torque"), pgettext("synthesize", "peak reaction"))
-    rows: list[list[Cell]] = [
-        [number, Amount(each["peak_input_torque"], "torque", 5), Amount(each["peak_reaction"], "force", 5)]
-        for number, each in enumerate(loads, 1)
-    ]
-    return Table(head, rows, ">>>")

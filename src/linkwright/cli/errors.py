@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import click
 
-from linkwright.errors import LinkwrightError, ModelError, RequestError, with_remedy
+from linkwright.errors import LinkwrightError, ModelError, RequestError, about, with_remedy
 from linkwright.registry import nearest
 from linkwright.words import Message, _
 
@@ -45,6 +45,13 @@ def did_you_mean(text: Message, word: str, known: Iterable[str], otherwise: str 
     """A sentence about a mistyped word with the nearest known one."""
     offer = nearest(word, list(known))
     return with_remedy(text, _('did you mean "{offer}"?', offer=offer) if offer else otherwise)
+
+
+def refuse_unknown(find: Callable[[str], object], option: str, typed: Iterable[str]) -> None:
+    """Raises UsageError where ``find`` does not know a name that follows an option."""
+    for name in typed:
+        with about(option, UsageError, LinkwrightError):
+            find(name)
 
 
 def usage_error(error: click.UsageError, command: click.Command, path: str) -> UsageError:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from linkwright.cli.errors import UsageError
+from linkwright.cli.errors import UsageError, refuse_unknown
 from linkwright.cli.files import read_model
 from linkwright.cli.options import Decorator, Options, count, flag, fonts, force, option, output, together
 from linkwright.cli.positions import one_place
@@ -127,14 +127,6 @@ def refuse_unknown_names(mechanism: Mechanism, options: Options, dimensions: lis
     word, _colon, output = options.overlay.partition(":")
     if word == "limits" and output:
         refuse_unknown(lambda name: place_meant(mechanism, name), "--overlay", [output])
-
-
-def refuse_unknown(find: Callable[[str], object], option: str, typed: Sequence[str]) -> None:
-    """Raises UsageError where ``find`` does not know a name that follows an option."""
-
-    for name in typed:
-        with about(option, UsageError, LinkwrightError):
-            find(name)
 
 
 def cycle(mechanism: Mechanism, steps: int, session: Session) -> Motion:

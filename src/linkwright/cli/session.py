@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, cast
@@ -15,7 +15,7 @@ from rich.text import Text
 
 from linkwright.cli.errors import OutputError
 from linkwright.core.progress import Progress, reporting
-from linkwright.errors import Finding
+from linkwright.errors import Finding, LinkwrightError
 from linkwright.words import Message, Translate, _
 from linkwright.words.characters import terminal_text
 from linkwright.words.message import in_language, reason_of
@@ -75,12 +75,18 @@ class Session:
             self._print(Group(*([Text("")] if number else []), *self._parts(table, first=not number)))
 
     def show_result(
-        self, found: Tabular, *written: object, text: str = "", spaced: bool = True, **options: Any
+        self,
+        found: Tabular,
+        *written: object,
+        text: str = "",
+        data: Mapping[str, object] | None = None,
+        spaced: bool = True,
+        **options: Any,
     ) -> None:
         """Prints a result (``options``: of its tables) or ``text`` in its place, and which files were written; with
-        ``json`` its data."""
+        ``json`` its data, and ``data``."""
         if self.json:
-            self.show_data({"ok": True, **found.data()})
+            self.show_data({"ok": True, **found.data(), **(data or {})})
             return
         if text:
             self.show(text)
@@ -115,6 +121,13 @@ class Session:
         styled = Text(terminal_text(self.translate(_("{head}: {sentence}", head=head, sentence=sentence))))
         styled.stylize(STYLES["error"], 0, len(head))
         self.tell(styled)
+
+    def tell_unmet(self, error: LinkwrightError, nearest: Tabular | None) -> None:
+        """Prints why a demand cannot be met; with ``json`` also what comes nearest."""
+        sentence = error.translate(self.language)
+        self.tell_error(sentence)
+        if self.json:
+            self.show_data({"ok": False, "error": sentence, "nearest": None if nearest is None else nearest.data()})
 
     @property
     def width(self) -> int:

@@ -10,6 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
+from linkwright.core.table import Cell, Table
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
 from linkwright.formula.recently_made import Recent
@@ -29,6 +30,7 @@ from linkwright.kinetostatics.named_outputs import Named
 from linkwright.kinetostatics.self_check import ForceChecks
 from linkwright.kinetostatics.trace import ForceOutputs, ForceTrace, Size, trace_forces
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.words import _
 
 
 class ForceSolver:
@@ -216,3 +218,13 @@ def program_of_results(mechanism: Mechanism, *, forces: bool) -> Program:
         return solver.program(names).program
     with_forces = ForceSolver(solver)
     return with_forces.program((*names[:-1], *with_forces.outputs.standard)).program
+
+
+def operations(program: Program) -> Table:
+    """How many operations of every kind a program has: once per design, once per position."""
+    counts = program.counts()
+    design, position = counts["design"], counts["position"]
+    kinds = sorted({*design, *position})
+    rows: list[list[Cell]] = [[kind, design.get(kind, 0), position.get(kind, 0)] for kind in kinds]
+    rows.append([_("total"), sum(design.values()), sum(position.values())])
+    return Table((_("operation"), _("per design"), _("per position")), rows)

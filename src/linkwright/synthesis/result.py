@@ -15,7 +15,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from itertools import repeat
 from math import degrees
 from pathlib import Path
 from typing import Any
@@ -27,7 +28,7 @@ from linkwright.core.arguments import real
 from linkwright.core.arrays import Complexes, Flags, Floats, Integers
 from linkwright.core.attached import PlotMixin, attached
 from linkwright.core.quantity import length_text
-from linkwright.core.table import Table, Tabular
+from linkwright.core.table import Amount, Cell, Table, Tabular
 from linkwright.equations.steps import Solution
 from linkwright.errors import LinkwrightError, speaker
 from linkwright.filesystem import atomic_write, refuse_target
@@ -150,6 +151,7 @@ class Synthesis(PlotMixin, Tabular):
         curves: further curves for the picture by name (circle- and centre-point curves).
         extent: largest distance between two demanded places, m; 0: no length is demanded.
         derivation: what the solver used on its way to the first candidate, for ``worked``.
+        loads: peak torque and reaction of every candidate, where ``with_loads`` has found them.
     """
 
     task: str
@@ -161,6 +163,7 @@ class Synthesis(PlotMixin, Tabular):
     curves: Mapping[str, Complexes] = field(default_factory=dict)
     extent: float = 0.0
     derivation: Derivation | None = field(default=None, repr=False)
+    loads: tuple[Mapping[str, float], ...] = ()
 
     def __repr__(self) -> str:
         best = f", the best {self.best!r}" if self.candidates else ""
@@ -190,7 +193,21 @@ class Synthesis(PlotMixin, Tabular):
             Table(COLUMNS, rows, "><>><<>>>"),
             Table(notes=_dimensions(self, tell)),
             Table(notes=[*below, *self.notes]),
+            *self.load_tables(),
         )
+
+    def load_tables(self) -> tuple[Table, ...]:
+        """The table of loads, where they have been found."""
+        rows: list[list[Cell]] = [
+            [number, Amount(each["peak_input_torque"], "torque", 5), Amount(each["peak_reaction"], "force", 5)]
+            for number, each in enumerate(self.loads, 1)
+        ]
+        head = (_("no."), _("peak torque"), pgettext("synthesize", "peak reaction"))
+        return (Table(head, rows, ">>>"),) if rows else ()
+
+    def with_loads(self, mass_per_length: float, *, speed: str | float = "60 rpm") -> Synthesis:
+        """The same with the loads of every candidate, as :meth:`Candidate.loads` finds them."""
+        return replace(self, loads=tuple(each.loads(mass_per_length, speed=speed) for each in self))
 
     @attached
     def worked(self, language: str = "en") -> WorkedSynthesis:
@@ -206,7 +223,9 @@ class Synthesis(PlotMixin, Tabular):
             "extent [m]": self.extent,
             "counts": dict(self.counts),
             "notes": [str(note) for note in self.notes],
-            "candidates": [each.data() for each in self.candidates],
+            "candidates": [
+                {**each.data(), **loads} for each, loads in zip(self, self.loads or repeat({}), strict=False)
+            ],
         }
 
     def write(

@@ -5,13 +5,11 @@ from __future__ import annotations
 from typing import Literal
 
 from linkwright.cli.command import command
-from linkwright.cli.errors import UsageError
+from linkwright.cli.errors import UsageError, refuse_unknown
 from linkwright.cli.options import RESULTS, Options, count, flag, force, model, option, output, switch
 from linkwright.cli.session import Session
 from linkwright.core.arguments import STEPS
-from linkwright.errors import LinkwrightError, about
 from linkwright.words import _
-from linkwright.words.message import in_language
 
 NO_NAMES = _('--names: "{text}" has an empty place between commas', code="metrics.no_names")
 
@@ -46,15 +44,18 @@ linkwright metrics crusher.yaml --output numbers.csv""",
 def run(options: Options, session: Session) -> int:
     """Prints or writes the numbers; 1 where the joint forces failed that some of them need, 2 where some of those
     that are named do not apply."""
+    from linkwright.analysis.base import METRICS
     from linkwright.analysis.evaluate import applicable_metrics
     from linkwright.cli.files import read_model, write_result
 
-    names = metric_names(options.names)
+    names = None if options.names is None else [each.strip() for each in ",".join(options.names).split(",")]
+    if not all(names or ()):
+        raise UsageError(NO_NAMES.format(text=" ".join(options.names)))
+    refuse_unknown(METRICS.__getitem__, "--names", names or ())
     mechanism, _findings = read_model(options.file, session)
     failures: Literal["mark", "raise"] = "mark" if options.mark else "raise"
     found = applicable_metrics(mechanism, names, forces=options.forces, steps=options.steps, failures=failures)
-    errors = [in_language(each, session.language) for each in found.inapplicable]
-    errors += [] if found.error is None else [found.error.translate(session.language)]
+    errors = found.errors(session.language)
     write_result(found.table, options, session)
     if session.json:
         data = {"ok": not errors, **found.table.data(session.language)}
@@ -65,18 +66,3 @@ def run(options: Options, session: Session) -> int:
     for each in errors:
         session.tell_error(each)
     return 2 if found.inapplicable else int(found.error is not None)
-
-
-def metric_names(texts: list[str] | None) -> list[str] | None:
-    """Names of metrics; raises UsageError for one that does not exist, with the nearest."""
-    if texts is None:
-        return None
-    from linkwright.analysis.base import METRICS
-
-    names = [name.strip() for text in texts for name in text.split(",")]
-    if not all(names):
-        raise UsageError(NO_NAMES.format(text=" ".join(texts)))
-    for name in names:
-        with about("--names", UsageError, LinkwrightError):
-            METRICS[name]
-    return names

@@ -62,11 +62,8 @@ def run(options: Options, session: Session) -> int:
         with on_cluster(options.cluster), progress(session, _("searching")) as report:
             found = optimize(options.file, state=options.state, progress=report, **settings)
     except OptimizeError as error:
-        sentence = error.translate(session.language)
-        session.tell_error(sentence)
-        if session.json:
-            session.show_data({"ok": False, "error": sentence, "nearest": error.nearest.data()})
-        else:
+        session.tell_unmet(error, error.nearest)
+        if not session.json:
             session.show_tables(error.nearest)
         return 1
     except KeyboardInterrupt as stopped:

@@ -5,8 +5,6 @@ from __future__ import annotations
 from linkwright.cli.command import command
 from linkwright.cli.options import Options, flag, model
 from linkwright.cli.session import Session, bold
-from linkwright.core.table import Cell, Table
-from linkwright.formula.program import Program
 from linkwright.words import _
 
 
@@ -33,14 +31,13 @@ def run(options: Options, session: Session) -> int:
     from linkwright.cli.files import read_model
     from linkwright.kinematics.rank_of_motion import rank_sentence
     from linkwright.kinematics.structure_with_rank import analysed
-    from linkwright.kinetostatics.solver import program_of_results
+    from linkwright.kinetostatics.solver import operations, program_of_results
 
     mechanism, _findings = read_model(options.file, session)
     structure = analysed(mechanism)
     rank = rank_sentence(mechanism, "en" if session.json else session.language)
-    program = None
-    if options.program or options.forces:
-        program = program_of_results(mechanism, forces=options.forces)
+    asked = options.program or options.forces
+    program = program_of_results(mechanism, forces=options.forces) if asked else None
     if session.json:
         data: dict[str, object] = {"ok": True, "name": mechanism.name, **structure.data(), "rank": rank}
         if program is not None:
@@ -52,16 +49,6 @@ def run(options: Options, session: Session) -> int:
     if rank:
         session.show(session.translate(_("{sentence}.", sentence=rank)))
     if program is not None:
-        session.show("", *_counts(program).lines(session.language), "")
+        session.show("", *operations(program).lines(session.language), "")
         session.show_as_is(program.text())
     return 0
-
-
-def _counts(program: Program) -> Table:
-    """Operations in a table: once per design, once per position."""
-    counts = program.counts()
-    design, position = counts["design"], counts["position"]
-    kinds = sorted({*design, *position})
-    rows: list[list[Cell]] = [[kind, design.get(kind, 0), position.get(kind, 0)] for kind in kinds]
-    rows.append([_("total"), sum(design.values()), sum(position.values())])
-    return Table((_("operation"), _("per design"), _("per position")), rows)

@@ -75,12 +75,8 @@ def run(options: Options, session: Session) -> int:
         with resumable(options.state, task, (task, demands), session), on_cluster(options.cluster):
             found = synthesize(task, **demands)
     except SynthesisError as error:
-        sentence = error.translate(session.language)
-        session.tell_error(sentence)
-        if session.json:
-            nearest = None if error.nearest is None else error.nearest.data()
-            session.show_data({"ok": False, "error": sentence, "nearest": nearest})
-        elif error.nearest is not None:
+        session.tell_unmet(error, error.nearest)
+        if error.nearest is not None and not session.json:
             candidates.show(error.nearest, options, session)
         return 1
     candidates.show(found, options, session)
