@@ -22,7 +22,7 @@ COLLECT_AFTER = 200_000
 def main(argv: Sequence[str] | None = None) -> int:
     """Runs one command. Exit code: 0 fine, 1 model or position at fault, 2 wrong usage, 130 interrupted.
 
-    Without ``argv`` it is the whole process: an interrupt ends it at any time without a word of Python's.
+    Without ``argv`` it owns the process: an interrupt ends it at any time without a traceback.
     """
     if argv is None:
         return _process()

@@ -146,7 +146,7 @@ def count(name: str, default: int | None = None, *, help: str) -> Decorator[Any]
 
 
 def fields(declared: Mapping[str, Field], metavars: Mapping[str, str]) -> Decorator[Any]:
-    """Options of some fields of a table, by what stands for their values in the help."""
+    """Options of some fields of a table, with the placeholders of their values in the help."""
 
     def decorate(function: Decorated) -> Decorated:
         for name, metavar in reversed([*metavars.items()]):

@@ -109,7 +109,7 @@ linkwright beam gallery:pitman_bending --plot bending.svg""",
         _(
             """\
 Solves the optimisation program of a small file: variables with bounds (continuous,
-whole, or from a list), an expression to minimise or maximise, constraints by name.
+integer, or from a list), an expression to minimise or maximise, constraints by name.
 Explains which constraints are active and what one more unit of each is worth; says
 which constraints cannot hold together where there is no solution."""
         ),

@@ -96,7 +96,7 @@ class Session:
 
     def show_written(self, *paths: object, spaced: bool = False, data: object = None) -> None:
         """Names the files that were written, but for those that are None; ``spaced``: each behind an empty line;
-        ``data``: what stands in their place with ``json``."""
+        ``data``: what is printed instead with ``json``."""
         if self.json and data is not None:
             self.show_data(data)
             return

@@ -1,4 +1,4 @@
-"""Results of ``solve`` as a page of text: the columns that fit, their table, and what stands beneath it."""
+"""Results of ``solve`` as a page of text: the columns that fit, their table, and the notes below it."""
 
 from __future__ import annotations
 
@@ -276,7 +276,7 @@ def _ruled(text: str, span: int) -> str:
 def _extremes(solved: Solved, translate: Translate, *, degrees: bool) -> list[str]:
     """The largest force in every joint and the range of every driver's effort.
 
-    Over the whole cycle these are found between the positions, as the metrics are; of chosen positions, or of
+    Over the full cycle these are found between the positions, as the metrics are; of chosen positions, or of
     a cycle that is not passed, they are those of the positions, and the title says so.
     """
     forces = solved.forces

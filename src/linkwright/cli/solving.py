@@ -77,7 +77,7 @@ class Solved:
 
     @cached_property
     def proof(self) -> Proof:
-        """In which steps of the motion the assembly is proved to be kept."""
+        """In which steps of the motion the assembly is proved not to change."""
         return prove(self.motion)
 
     @cached_property
@@ -219,7 +219,7 @@ class Place:
 
 
 def data(solved: Solved, options: Options) -> dict[str, object]:
-    """Everything that the table and what stands beneath it say."""
+    """Everything in the table and in the notes below it."""
     motion, forces = solved.motion, solved.forces
     failed = [int(row) for row in solved.rows if not motion.ok[row]]
     found: dict[str, object] = {
@@ -266,7 +266,7 @@ def _size(forces: Forces, joint: str, on: str) -> Floats:
 
 
 def extremes_of(solved: Solved, wanted: Sequence[Wanted], degrees: bool) -> list[Place]:
-    """Extremes of what the forces give: refined between the positions of a whole cycle, else those of positions."""
+    """Extremes of what the forces give: refined between the positions of a full cycle, else those of positions."""
     forces = solved.forces
     assert forces is not None
     if not solved.between:
@@ -286,7 +286,7 @@ def extremes_of(solved: Solved, wanted: Sequence[Wanted], degrees: bool) -> list
 def closeness(motion: Motion, language: str) -> list[str]:
     """Warnings about groups whose cycle passes close to a singular position, each with the place.
 
-    Of chosen inputs or times the whole cycle is looked at where there is one.
+    Of chosen inputs or times the full cycle is examined where there is one.
     """
     if not motion.inputs or not motion.ok.any():
         return []

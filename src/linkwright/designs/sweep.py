@@ -51,7 +51,7 @@ class Sweep(PlotMixin, Tabular, Frozen):
     put together, or with ``partial`` that it reaches on its way from the first of them, as ``Motion.ok`` counts;
     ``ok``: which designs pass the full cycle, (designs,);
     ``result["driver.effort", "rms"]`` or ``result["driver.effort rms"]`` a summary, NaN for designs
-    that do not pass the whole cycle (unless ``partial`` was asked for). Where ``steps`` were given, those of outputs
+    that do not pass the full cycle (unless ``partial`` was asked for). Where ``steps`` were given, those of outputs
     are of these positions, and ``notes`` says how far they are off. ``branch_margin`` (designs,): how far the
     step nearest to another assembly was from being refused, 1 far, 0 at the edge, where groups without closed form
     are tracked (their steps keep the determinant's sign, the correction small and both ends' exact rates on one

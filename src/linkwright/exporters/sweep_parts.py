@@ -144,7 +144,7 @@ class SweepParts(Tabular):
             skipped=self.skipped,
             folder=self.folder,
         )
-        head = (_("column"), _("least"), _("greatest"), pgettext("sweep", "designs"))
+        head = (_("column"), _("minimum"), _("maximum"), pgettext("sweep", "designs"))
         ranges = self.ranges().items()
         rows: list[list[Cell]] = [[name, Amount(a), Amount(b), count] for name, (a, b, count) in ranges]
         notes = [_("Note: {text}", text=note) for note in self.notes]

@@ -131,7 +131,7 @@ def _after(key: str, energy: float, area: int, translate: Translate) -> Row:
 
 
 def _by_formula(energy: float, options: DriveOptions) -> tuple[float, list[Row]]:
-    """Flywheel that is needed beside what is there, 0 where none is asked for."""
+    """Flywheel that is needed in addition to the present inertia, 0 where none is asked for."""
     rows = [Row("inertia", options.present, "inertia")] if options.present else []
     if options.fluctuation is None or not options.speed:
         return 0.0, rows

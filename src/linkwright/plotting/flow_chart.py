@@ -19,7 +19,7 @@ from linkwright.pictures.symbols.arrows import head
 from linkwright.pictures.symbols.base import points, vec, way
 from linkwright.plotting.solution_steps import Node, Shape
 
-#: Height of letters and of lines, widest text of a symbol, of a decision, of what stands aside.
+#: Height of letters and of lines, widest text of a symbol, of a decision, of a side note.
 SIZE, LINE, WIDEST, NARROWER, ASIDE = 13.0, 17.0, 190.0, 100.0, 84.0
 #: Space inside symbols, between them, and around a connector's circle.
 PAD, GAP, RADIUS = 9.0, 26.0, 10.0
@@ -117,7 +117,7 @@ def _around(shape: Shape, lines: tuple[str, ...], bold: int = 0) -> Box:
 
 
 def aside(text: str, decision: Box) -> Box:
-    """What stands at the right of a decision, as data."""
+    """The note to the right of a decision, as data."""
     lines = tuple(fold(text, ASIDE, SIZE))
     half = LINE * len(lines) / 2 + 6.0
     left = decision.half_width + 22.0
@@ -133,7 +133,7 @@ def laid_out(nodes: Sequence[Node], tallest: float, columns: int) -> list[Page]:
 
 @dataclass(frozen=True)
 class _Seat:
-    """Where a node stands: page, column, symbol."""
+    """Position of a node: page, column, symbol."""
 
     page: int
     column: int
@@ -269,7 +269,7 @@ class _Chart:
         self._connected(source, target, np.array([way[0], (lane + RADIUS, y0)]), (lane, y0), -1.0)
 
     def _forward(self, source: _Seat, target: _Seat, box: Box, *, near: bool) -> None:
-        """From what stands aside down to a later symbol."""
+        """From a side note down to a later symbol."""
         x0, sheet = source.middle, self.sheets[source.page]
         lane = x0 + FORWARD
         if near:

@@ -37,7 +37,7 @@ class Node:
     """One symbol of the chart: its ``lines``, and above them the name of the subprogram that it calls.
 
     ``name``: what a decision's ``jump`` goes to; ``down`` and ``across``: words at the exits of a decision, the
-    first leads to the next symbol; ``aside``: what stands in a symbol of its own before the jump.
+    first leads to the next symbol; ``aside``: the text of a separate symbol before the jump.
     """
 
     shape: Shape

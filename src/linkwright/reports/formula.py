@@ -399,7 +399,7 @@ def _pieces(row: Row, widest: float) -> Iterator[list[Node]]:
 
 
 def _leading(part: Sequence[Node]) -> bool:
-    """Whether nothing but a sign or an opening bracket stands there yet: the next sign belongs to it."""
+    """Whether the part is only signs and opening brackets so far: the next sign is a leading one."""
     return all(isinstance(each, Atom) and (each.kind == "sign" or each.text == "(") for each in part)
 
 

@@ -162,7 +162,7 @@ CALCULATION_KEYS: Mapping[str, Message] = {
     "integer": _("integer"),
     "kind": _("kind"),
     "law": _("motion law"),
-    "least": _("least"),
+    "least": _("minimum"),
     "length": _("length"),
     "lift": _("lift"),
     "limits": _("limits"),

@@ -60,11 +60,11 @@ def _joint(draft: Draft, point: str) -> str:
     separated = tuple(_("point {point} of {link}", link=link, point=new) for link, new in named.items())
     named_links = tuple(_("frame", code="nouns.frame") if link == "frame" else link for link in joined)
     gone = _(
-        "Pin {point} removed: {links} are no longer joined there ({apart}); drag them apart with Move.",
+        "Pin {point} removed: {links} are no longer joined there ({points}); drag them apart with Move.",
         code="studio.pin_gone",
         point=point,
         links=named_links,
-        apart=separated,
+        points=separated,
     )
     return (
         _(

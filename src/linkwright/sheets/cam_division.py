@@ -317,7 +317,7 @@ def _tightest(picture: Picture, paper: Paper, design: CamDesign, outer: float) -
 
 
 def _radii(picture: Picture, paper: Paper, design: CamDesign) -> Iterator[Name]:
-    """r₀ to the roller's centre and r_b of the profile, where no follower stands; e of an offset."""
+    """r₀ to the roller's centre and r_b of the profile, where no follower is drawn; e of an offset."""
     cam = design.cam
     base, roller = cam.base_radius or 0.0, cam.follower.roller_radius
     low, high = _free(design)

@@ -152,7 +152,7 @@ class MotionPanel(Panel):
 
     def _span(self, phase: Phase, name: Runs, wide: float) -> tuple[float, float, float]:
         """From where to where the angle of a phase takes room, and the middle of its text: between its ends, else
-        beside them."""
+        next to them."""
         start, end = wide * phase.start / TURN, wide * phase.end / TURN
         half = 0.5 * runs_width(name, self.letters)
         if self._fits(name, end - start):

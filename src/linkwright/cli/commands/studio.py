@@ -20,7 +20,7 @@ NO_PORT = _("port {port} cannot be used: {reason}; choose another one, or none f
     _(
         """\
 Opens the studio in the browser: the machine as on a living page, the text of its file next to it, both
-kept in step, findings at their lines, and tools that draw a mechanism from nothing. The server answers
+in sync, findings at their lines, and tools that draw a mechanism from nothing. The server answers
 this machine only and reads and writes model files below the folder it is started in. Every change is
 saved at once; what was not saved is there again after a crash."""
     ),

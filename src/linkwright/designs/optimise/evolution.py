@@ -146,7 +146,7 @@ def fronts(judged: Judged) -> Integers:
 
 
 def crowding(goals: Floats) -> Floats:
-    """How far apart the neighbours of each design lie in the objectives."""
+    """Distance between the neighbours of each design in the objectives."""
     return _crowding(goals, [np.argsort(column, kind="stable") for column in goals.T])
 
 

@@ -310,8 +310,8 @@ class Polish:
     def polished(
         self, before: Judged, weights: Floats, aims: Floats, steps: int = STEPS, little: float = LITTLE
     ) -> Judged:
-        """The designs (K) with the largest of ``weights`` · (objective − ``aims``), (K, goals) each, made least and
-        the demands kept; each where it became better, or misses less, else as it was."""
+        """The designs (K) with the largest of ``weights`` · (objective − ``aims``), (K, goals) each, minimised with
+        the demands met; each where it became better, or violates less, else as it was."""
         sampled = self.task.problem.robust and not self.task.exact
         if not self.free.any() or sampled or not len(before.x):
             return before

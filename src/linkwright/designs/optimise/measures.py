@@ -81,7 +81,7 @@ class Measures:
         return self.mechanism.dimensions()
 
     def _expression(self, text: str) -> tuple[Expression | None, dict[str, str]]:
-        """An expression with the metrics of its names; None for a number that stands alone."""
+        """An expression with the metrics of its names; None for a number on its own."""
         paths = self.problem.paths
         definition = text if text in paths else str(self.problem.define.get(text, text))
         if self._is_number(definition):
@@ -273,7 +273,7 @@ class Measures:
         return self._where_they_pass(values, columns), slopes
 
     def curvatures(self, text: str, columns: Mapping[str, Floats], by: tuple[str, ...]) -> Floats | None:
-        """Curvature (designs, k, k) of a path error that stands alone, by the addresses ``by``; None: not known."""
+        """Curvature (designs, k, k) of a path error on its own, by the addresses ``by``; None: not known."""
         expression, names = self.expressions[text]
         path = names[""] if expression is None else ""
         return self.paths.curvatures(path, columns, by) if path in self.paths else None

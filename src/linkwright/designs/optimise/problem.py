@@ -276,7 +276,7 @@ class _Reading(SectionReading):
         return {name: each for name, each in found.items() if name not in paths}, paths
 
     def _texts(self, key: str, paths: dict[str, PathError]) -> list[str]:
-        """Numbers by name; a path error that stands alone gets one."""
+        """Numbers by name; a path error without one gets one."""
         read, found = self.values.get(key), list[str]()
         value = self.settings.get(key, read)
         for each in () if read is None else (value,) if isinstance(read, str) else value:

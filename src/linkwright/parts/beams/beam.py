@@ -243,7 +243,7 @@ class BeamLine(Result):
 
     ``shear(x)`` N, ``moment(x)`` N·m, ``slope(x)`` rad, ``deflection(x)`` m take places (n,) m; at jumps they give
     the value on the right, with ``side="left"`` that on the left. ``extremes(quantity)``: place and value of the
-    least and the largest.
+    minimum and the maximum.
     """
 
     labels: ClassVar[Mapping[str, Message]] = LABELS

@@ -40,7 +40,7 @@ def gear(
 ) -> Shape:
     """A gear: teeth on its pitch circle, a chain line; ``inside`` for the teeth of a ring gear.
 
-    Without their number ``teeth`` they show that it is a gear; likewise where they would be too fine to be seen.
+    Without their number ``teeth`` they show that it is a gear; likewise where they would be too fine to be visible.
     """
     count = max(12, round(2 * math.pi * radius / PITCH))
     if teeth is not None and 2 * math.pi * radius / teeth > FINEST:

@@ -1,4 +1,4 @@
-"""Marks on curves, and names in diagrams: limit positions, phases, extremes; labels where they cover least."""
+"""Marks on curves, and names in diagrams: limit positions, phases, extremes; labels where they overlap the least."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ MILLIMETRE = 0.25
 MIN_WIDTH, NARROWEST, SPACING, BAR = 600.0, 168.0, 36.0, 80.0
 #: Sizes of letters and heights of lines: of the heading, of titles, of texts below.
 HEADING, TITLE, SIZE, LINE = 15.0, 12.0, 11.0, 17.6
-#: A picture flatter than FLAT mm is drawn up to WIDE mm long, one that stands upright up to HIGH mm, so that its page
+#: A picture flatter than FLAT mm is drawn up to WIDE mm long, an upright one up to HIGH mm, so that its page
 #: has room beneath it; one that stays below THIN mm has its arrows side by side at SIDE mm.
 FLAT, WIDE, HIGH, THIN, SIDE = 12.0, 190.0, 110.0, 3.0, 3.0
 #: Longest extent of a polygon, mm; vectors that are shorter on the paper have no name of their own, mm; where along

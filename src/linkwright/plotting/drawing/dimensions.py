@@ -68,7 +68,7 @@ class Angle:
 def dimension_lines(
     machine: DrawnMechanism, wanted: Iterable[Dimension] | bool, index: int, ink: list[Floats]
 ) -> list[Dimensioned]:
-    """Dimensions on the side where they cross least of what is drawn.
+    """Dimensions on the side where they cross the fewest lines.
 
     ``wanted``: links (``crank``, ``frame``) with all that places their points, or two points (``("O1", "O3")``);
     True for all links and the frame.

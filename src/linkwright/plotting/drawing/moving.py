@@ -89,7 +89,7 @@ def moving_vectors(
 
 
 def moving_torques(scene: Scene, torques: Torques, frames: Sequence[int], seconds: float) -> list[SvgNode]:
-    """Arcs that follow their places; of the two senses the one that holds is seen."""
+    """Arcs that follow their places; of the two senses only the present one is visible."""
     found: list[SvgNode] = []
     rows = list(frames)
     for name, values in torques.values.items():

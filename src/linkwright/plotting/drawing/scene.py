@@ -89,7 +89,7 @@ class Scene:
 
     @cached_property
     def closed(self) -> bool:
-        """Whether the last position is followed by the first."""
+        """Whether the first position comes after the last."""
         return self.machine.motion.positions.closed
 
     def trace(self, point: str) -> Floats:
@@ -155,7 +155,7 @@ def point_labels(machine: DrawnMechanism, index: int, links: Iterable[str] | Non
 
 
 def link_labels(scene: Scene, index: int) -> Iterator[Label]:
-    """Names of all moving links, beside their bodies."""
+    """Names of all moving links, next to their bodies."""
     machine = scene.machine
     for name in machine.motion.mechanism.links:
         cloud = machine.cloud(name)

@@ -107,7 +107,7 @@ class Vectors(Family):
         return joined(SYMBOLS["arrow"](start=vec(a), end=vec(b), style=self.style) for a, b in ends)
 
     def labels(self, index: int, view: View, scale: float) -> list[Label]:
-        """Names of the arrows that are seen, at their points, else along their shafts."""
+        """Names of the visible arrows, at their points, else along their shafts."""
         found = []
         for name, (stem, low) in self.symbols.items():
             ends = self.ends(name, index, view, scale)
@@ -192,7 +192,7 @@ class Arrows:
         return arrows + joined(each.shape(index, view) for each in self.torques)
 
     def tips(self, run: Sequence[int], view: View, scale: float) -> list[tuple[Label, Floats]]:
-        """Names of what is seen at any of some positions, at the first of them, with their places at all (n, 2)."""
+        """Names of the arrows visible at any of some positions, at the first of them, with all places (n, 2)."""
         found = []
         for family in self.families:
             for name, (stem, low) in family.symbols.items():
@@ -204,7 +204,7 @@ class Arrows:
         return found
 
     def labels(self, index: int, view: View, scale: float) -> list[Label]:
-        """The names of all that is seen."""
+        """The names of all that is visible."""
         names = [label for each in self.vectors for label in each.labels(index, view, scale)]
         return names + [label for each in self.torques for label in each.labels(index, view)]
 
@@ -260,7 +260,7 @@ def force_vectors(forces: Forces, names: Sequence[str] | None) -> Arrows:
 
 
 def _of_inertia(forces: Forces) -> float:
-    """Force, N, that is but rounding beside all masses at the largest acceleration: what cancels leaves so much."""
+    """Force, N, below which it is rounding error: a share of all masses times the largest acceleration."""
     from linkwright.kinetostatics.forces import ROUNDING
 
     mass = 0.0 if forces.static else sum(link.mass for link in forces.mechanism.links.values())

@@ -128,7 +128,7 @@ def _train(case: ReportContext, train: GearTrain) -> Iterator[Block]:
 
 
 def _equal_pairs(pairs: Mapping[str, WheelSizes]) -> list[list[str]]:
-    """Names of gears whose module and whole numbers of teeth are given, those with equal ones together."""
+    """Names of gears with a module and integer numbers of teeth, those with equal ones together."""
     found: dict[tuple[object, ...], list[str]] = {}
     for name, sizes in pairs.items():
         if sizes.involute and all(z == int(z) for z in sizes.teeth or ()):

@@ -27,7 +27,7 @@ from linkwright.words import Message, Translate, _, pgettext
 
 #: Share of the paper's shorter side that the diagrams of the motion take at most.
 _MOTION = 0.42
-#: Width of a profile over its height from which the data stand below it in two parts, the points beside it.
+#: Width of a profile over its height from which the data are below it in two parts, the points next to it.
 _WIDE = 1.2
 
 

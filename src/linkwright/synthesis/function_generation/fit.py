@@ -109,7 +109,7 @@ class FunctionDemand:
 
 @dataclass(frozen=True)
 class Quality:
-    """Demands besides a small error: an input that turns fully, a smallest transmission angle (rad)."""
+    """Demands in addition to a small error: an input that turns fully, a smallest transmission angle (rad)."""
 
     turning: bool = False
     transmission: float = 0.0
