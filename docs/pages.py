@@ -23,9 +23,9 @@ from typing import Any
 
 import linkwright as lw
 from linkwright import gallery
-from linkwright.cli.commands.gallery import title_and_purpose
 from linkwright.errors import LinkwrightError
 from linkwright.fields.reading import form
+from linkwright.files.gallery_entries import entry
 from linkwright.validation.validate import validate
 from linkwright.words import Message
 from linkwright.words.message import in_language
@@ -132,7 +132,7 @@ def gallery_index(language: str) -> Iterator[str]:
     yield f"# {TITLES[language]}\n"
     yield "::::{grid} 1 2 3 3\n:gutter: 3\n"
     for name in gallery.names():
-        model = title_and_purpose(name)
+        model = entry(name)
         title = in_language(model["title"], language)
         yield f":::{{grid-item-card}} {title}\n:link: {name}\n:link-type: doc\n:img-top: ../../pictures/{name}.svg\n"
         yield f"{first_sentence(in_language(model['purpose'], language))}\n:::\n"
@@ -151,7 +151,7 @@ def gallery_by_kinds(language: str) -> Iterator[str]:
     """The existing page, with the purposes of the models updated in its tables."""
     for line in (ROOT / language / "gallery.md").read_text("utf-8").splitlines():
         if row := re.fullmatch(r"\| `(\w+)` \| .+ \| (.+?) \|", line):
-            purpose = in_language(title_and_purpose(row[1])["purpose"], language)
+            purpose = in_language(entry(row[1])["purpose"], language)
             line = f"| `{row[1]}` | {purpose} | {row[2]} |"
         yield line
 

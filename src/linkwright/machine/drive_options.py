@@ -27,6 +27,19 @@ TRIED = 3601
 DISK: Mapping[str, Field] = {"density": Quantity("density", above=0.0), "width_ratio": Number(above=0.0, key="width")}
 RIM = {**DISK, "thickness_ratio": Number(above=0.0, maximum=0.5, key="thickness")}
 
+#: What describes the shaft of a torque diagram.
+OF_SHAFT = ("scale", "load", "period", "speed", "inertia", "mass", "gyration")
+NO_INPUT = _(
+    "name a model file, or give a torque diagram with --areas or --torque; see linkwright machine --help",
+    code="machine.nothing_given",
+)
+NOT_WITH_FILE = _(
+    "{option} describes a torque diagram; it cannot be used together with a model file", code="machine.not_with_file"
+)
+NO_SCALE = _('--areas needs the scales of the diagram: --scale "5 N·m/mm, 1 deg/mm"', code="machine.no_scale")
+MASS_AND_GYRATION = _(
+    "--mass and --gyration belong together; give both, or --inertia", code="machine.mass_and_gyration"
+)
 NEEDS_SPEED = _(
     "a flywheel or a speed fluctuation needs the mean speed; add --speed, such as --speed 180rpm",
     code="machine.needs_speed",
@@ -179,8 +192,20 @@ class DriveOptions:
         """The dimensions of a flywheel from its inertia, None where no shape is asked for."""
         return self.disk or self.rim
 
-    def require_speed(self) -> None:
-        """Raises RequestError where something is asked for that needs the mean speed or the fluctuation."""
+    def require_consistent(self, *, of_machine: bool) -> None:
+        """Raises RequestError for what belongs to a torque diagram where a machine is laid out, and for a diagram
+        that lacks something."""
+        described = (name for name in ("areas", "torque", *OF_SHAFT) if getattr(self, name) is not None)
+        if of_machine:
+            if (name := next(described, None)) is not None:
+                raise RequestError(NOT_WITH_FILE.format(option=f"--{name}"))
+            return
+        if self.areas is None and self.torque is None:
+            raise RequestError(NO_INPUT)
+        if self.areas is not None and self.areas[1] is None:
+            raise RequestError(NO_SCALE)
+        if (self.mass is None) != (self.gyration is None):
+            raise RequestError(MASS_AND_GYRATION)
         if self.speed is None and (self.fluctuation is not None or self.present):
             raise RequestError(NEEDS_SPEED)
         if self.size is not None and self.fluctuation is None:

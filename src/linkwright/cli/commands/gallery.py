@@ -2,16 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from pathlib import Path
+
 from rich.text import Text
 
+from linkwright import gallery
 from linkwright.cli.command import command
 from linkwright.cli.errors import UsageError, did_you_mean
+from linkwright.cli.files import atomic_write
 from linkwright.cli.options import Options, argument, force
 from linkwright.cli.session import Session
 from linkwright.words import _
-from linkwright.words.message import LocalizedText, in_language
+from linkwright.words.message import in_language
 
 ACTIONS = ("list", "show", "copy")
+TITLES = (
+    None,
+    _("Calculations of machine parts (linkwright beam, statics, vibration, …):"),
+    _("Tasks of synthesis (linkwright synthesize gallery:NAME):"),
+)
+NEXT = _("linkwright gallery show NAME prints a file; linkwright solve gallery:NAME solves it.")
+WHICH = _("gallery {action}: which one? give a name; linkwright gallery list shows all", code="gallery.which")
+UNKNOWN = _('the gallery has no model "{name}"', code="gallery.unknown")
 
 
 @command(
@@ -36,46 +49,31 @@ linkwright gallery copy jaw_crusher_sixbar .     a file of your own to change"""
 @force
 def run(options: Options, session: Session) -> int:
     """Lists the gallery, prints one of its files or copies it."""
-    from pathlib import Path
-
-    from linkwright.cli.files import atomic_write
+    from linkwright.files.gallery_entries import entries, entry
 
     if options.action == "list":
-        _show_list(options.name or "", session)
+        _show_list(entries(options.name or ""), session)
         return 0
     name, text = _file_text(options.name, options.action)
-    if options.action == "show":
-        if session.json:
-            session.show_data({**title_and_purpose(name), "text": text})
-        else:
-            session.show_as_is(text.rstrip("\n"))
-        return 0
-    path = Path(options.folder) / f"{name}.yaml"
-    atomic_write(path, text, force=options.force)
-    session.show_written(path, data={"written": str(path)})
+    if options.action == "copy":
+        path = Path(options.folder) / f"{name}.yaml"
+        atomic_write(path, text, force=options.force)
+        session.show_written(path, data={"written": str(path)})
+    elif session.json:
+        session.show_data({**entry(name), "text": text})
+    else:
+        session.show_as_is(text.rstrip("\n"))
     return 0
 
 
-CALCULATIONS = _("Calculations of machine parts (linkwright beam, statics, vibration, …):")
-TASKS = _("Tasks of synthesis (linkwright synthesize gallery:NAME):")
-NEXT = _("linkwright gallery show NAME prints a file; linkwright solve gallery:NAME solves it.")
-WHICH = _("gallery {action}: which one? give a name; linkwright gallery list shows all", code="gallery.which")
-UNKNOWN = _('the gallery has no model "{name}"', code="gallery.unknown")
-
-
-def _show_list(part: str, session: Session) -> None:
-    """Prints names and titles of the models, calculations and tasks whose names have a part."""
-    from linkwright import gallery
-
-    kinds = [
-        [title_and_purpose(name) for name in names if part in name]
-        for names in (gallery.names(), gallery.calculations(), gallery.tasks())
-    ]
+def _show_list(kinds: Sequence[list[dict[str, str]]], session: Session) -> None:
+    """Prints names and titles of models, calculations and tasks."""
+    shown = [entry for entries in kinds for entry in entries]
     if session.json:
-        session.show_data([entry for entries in kinds for entry in entries])
+        session.show_data(shown)
         return
-    wide = max((len(entry["name"]) for entries in kinds for entry in entries), default=0)
-    for title, entries in zip((None, CALCULATIONS, TASKS), kinds, strict=True):
+    wide = max((len(entry["name"]) for entry in shown), default=0)
+    for title, entries in zip(TITLES, kinds, strict=True):
         if title and entries:
             session.show("", session.translate(title))
         for entry in entries:
@@ -86,26 +84,12 @@ def _show_list(part: str, session: Session) -> None:
 
 def _file_text(name: str | None, action: str) -> tuple[str, str]:
     """Name and text of a file; raises UsageError with the nearest name."""
-    from linkwright import gallery
-
     if name is None:
         raise UsageError(WHICH.format(action=action))
     name = name.removeprefix("gallery:").removesuffix(".yaml")
-    known = (*gallery.names(), *gallery.calculations(), *gallery.tasks())
-    if name not in known:
+    try:
+        return name, gallery.content(name).decode()
+    except KeyError:
+        known = (*gallery.names(), *gallery.calculations(), *gallery.tasks())
         hint = _("see {command} --help", command="linkwright gallery")
-        raise UsageError(did_you_mean(UNKNOWN.format(name=name), name, known, hint))
-    return name, gallery.file(name).read_text(encoding="utf-8")
-
-
-def title_and_purpose(name: str) -> dict[str, str]:
-    """Title and purpose from the first lines of a gallery file, without reading the model."""
-    from linkwright import gallery
-    from linkwright.files.model_file import read_nodes
-    from linkwright.files.reader import Reader
-
-    first, _unused, _unused2 = gallery.file(name).read_text(encoding="utf-8").partition("\nsource:")
-    root, _unused3 = read_nodes(first, name)
-    assert root is not None
-    header = Reader(name).free(root)
-    return {"name": name, "title": LocalizedText(header["name"]), "purpose": LocalizedText(header["purpose"])}
+        raise UsageError(did_you_mean(UNKNOWN.format(name=name), name, known, hint)) from None

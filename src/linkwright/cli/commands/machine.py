@@ -8,28 +8,18 @@ from linkwright.cli.options import RESULTS, Options, argument, count, fields, fo
 from linkwright.cli.session import Session
 from linkwright.core.arguments import STEPS
 from linkwright.fields.base import file_keys
-from linkwright.machine.drive_options import DriveOptions
+from linkwright.machine.drive_options import OF_SHAFT, DriveOptions
 from linkwright.words import _
 
-CURVE_OPTIONS = ("scale", "load", "period", "speed", "inertia", "mass", "gyration")
-NO_INPUT = _(
-    "name a model file, or give a torque diagram with --areas or --torque; see linkwright machine --help",
-    code="machine.nothing_given",
-)
 OUTPUT_NEEDS_FILE = _("--output writes the cycle of a mechanism; name a model file", code="machine.output_needs_file")
-NOT_WITH_FILE = _(
-    "{option} describes a torque diagram; it cannot be used together with a model file", code="machine.not_with_file"
-)
-NO_SCALE = _('--areas needs the scales of the diagram: --scale "5 N·m/mm, 1 deg/mm"', code="machine.no_scale")
-MASS_AND_GYRATION = _(
-    "--mass and --gyration belong together; give both, or --inertia", code="machine.mass_and_gyration"
-)
 FIELDS = file_keys(DriveOptions)
+METAVARS = {
+    **{"fluctuation": "δ", "ratio": "i", "efficiency": "η", "margin": "NUMBER"},
+    **{"disk": "KEY=VALUE,…", "rim": "KEY=VALUE,…", "areas": "MM²,…", "torque": "EXPRESSION"},
+    **{name: name.upper() for name in OF_SHAFT},
+}
 #: Options that say the same, or of which one says nothing of the other's diagram.
-EXCLUSIVE = (
-    *(("areas", "load"), ("areas", "period"), ("torque", "scale")),
-    *(("inertia", "mass"), ("inertia", "gyration")),
-)
+EXCLUSIVE = "disk rim, areas torque, areas load, areas period, torque scale, inertia mass, inertia gyration"
 
 
 @command(
@@ -51,7 +41,7 @@ linkwright machine --torque "20000 + 9500*sin(2*theta) - 5700*cos(2*theta)" \\
     --speed 180rpm --fluctuation 0.01
 linkwright machine --torque "5000 + 600*sin(2*theta)" --load "5000 + 500*sin(theta)" \\
     --speed 150rpm --mass 500kg --gyration 0.4m""",
-    exclusive=[("disk", "rim"), ("areas", "torque"), *EXCLUSIVE],
+    exclusive=[pair.split() for pair in EXCLUSIVE.split(", ")],
 )
 @argument(
     "file",
@@ -60,10 +50,7 @@ linkwright machine --torque "5000 + 600*sin(2*theta)" --load "5000 + 500*sin(the
     required=False,
     model=True,
 )
-@fields(FIELDS, {"fluctuation": "δ", "ratio": "i", "efficiency": "η", "margin": "NUMBER"})
-@fields(FIELDS, {"disk": "KEY=VALUE,…", "rim": "KEY=VALUE,…"})
-@fields(FIELDS, {"areas": "MM²,…", "torque": "EXPRESSION"})
-@fields(FIELDS, {name: name.upper() for name in CURVE_OPTIONS})
+@fields(FIELDS, METAVARS)
 @count("--steps", STEPS, help=_("positions over the cycle (default 360); what lies between them is found exactly"))
 @output(RESULTS, _("write curves to a .csv file, or all numbers to a .json, .xlsx, .md or .html file"))
 @force
@@ -72,31 +59,14 @@ def run(options: Options, session: Session) -> int:
     from linkwright.cli.files import present, read_model
     from linkwright.machine.drive_design import of_diagram, of_mechanism
 
-    _refuse_contradictions(options)
     values = {name: getattr(options, name) for name in FIELDS}
-    flywheel = DriveOptions(**{name: each for name, each in values.items() if each is not None})
+    asked = DriveOptions(**{name: each for name, each in values.items() if each is not None})
+    asked.require_consistent(of_machine=options.file is not None)
     if options.file is None:
-        flywheel.require_speed()
-        session.show_result(of_diagram(flywheel, session.translate))
-        return 0
-    mechanism, _findings = read_model(options.file, session)
-    present(of_mechanism(mechanism, flywheel, options.steps), options, session)
-    return 0
-
-
-def _refuse_contradictions(options: Options) -> None:
-    """Raises UsageError for options that belong together, or exclude each other or a model file."""
-    diagram = next((f"--{each}" for each in ("areas", "torque") if getattr(options, each) is not None), None)
-    if options.file is None:
-        if diagram is None:
-            raise UsageError(NO_INPUT)
         if options.output is not None:
             raise UsageError(OUTPUT_NEEDS_FILE)
+        session.show_result(of_diagram(asked, session.translate))
     else:
-        of_curves = [f"--{name}" for name in CURVE_OPTIONS if getattr(options, name) is not None]
-        if diagram or of_curves:
-            raise UsageError(NOT_WITH_FILE.format(option=diagram or of_curves[0]))
-    if options.areas is not None and options.areas[1] is None:
-        raise UsageError(NO_SCALE)
-    if (options.mass is None) != (options.gyration is None):
-        raise UsageError(MASS_AND_GYRATION)
+        mechanism, _findings = read_model(options.file, session)
+        present(of_mechanism(mechanism, asked, options.steps), options, session)
+    return 0
