@@ -133,11 +133,11 @@ def turned(mechanism: Mechanism, edges: Floats, closed: bool) -> tuple[Flags, Fl
     """Pieces between edges, s, before which points come from elsewhere, and behind which they go elsewhere, than as
     the piece goes on: at the ends of an open cycle, and where the law of a driver goes over to another formula."""
     laws = [driver.law for driver in mechanism.drivers.values()]
-    bends = np.concatenate([law.breaks(edges[0], edges[-1]) for law in laws])
-    distance = np.abs(edges[:, None] - bends).min(axis=1, initial=np.inf)
-    bent = distance <= 1e-9 * (edges[-1] - edges[0])
-    bent[[0, -1]] = bent[[0, -1]].any() or not closed
-    return bent[:-1], bent[1:]
+    law_breaks = np.concatenate([law.breaks(edges[0], edges[-1]) for law in laws])
+    distance = np.abs(edges[:, None] - law_breaks).min(axis=1, initial=np.inf)
+    at_break = distance <= 1e-9 * (edges[-1] - edges[0])
+    at_break[[0, -1]] = at_break[[0, -1]].any() or not closed
+    return at_break[:-1], at_break[1:]
 
 
 def _spans(analysis: Analysis, cycle: Ways, edges: Floats, values: Floats) -> Indices:

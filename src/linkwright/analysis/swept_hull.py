@@ -113,8 +113,8 @@ class SweptHull:
         self._found = bool(moved.max(initial=0.0) < NEAR - CLOSE)
         number, place = np.concatenate([begin, end, outer]), np.concatenate([first, last, begun[-4:]])
         point = _at(self._pieces_of(number), _weights(place))
-        ways = (slice(len(begin)), slice(len(begin), -4), slice(-4, None))
-        return [Contacts(number[way], place[way], point[way]) for way in ways]
+        groups = (slice(len(begin)), slice(len(begin), -4), slice(-4, None))
+        return [Contacts(number[group], place[group], point[group]) for group in groups]
 
     def _touching(self, begin: Indices, end: Indices, along: Floats, near: Floats) -> tuple[Floats, Floats]:
         """Places near some nodes where lines touch the curves, by Newton's method: ``along`` a direction, or along

@@ -154,15 +154,15 @@ class SwingPhase(Phase):
         assert self.part is not None
         stroke = course.limit_value(self.output, self.end) - course.limit_value(self.output, self.start)
         size = absolute(stroke)
-        ways = [
+        distances = [
             course.constant(f"part.{k}") * (size if amount.share else 1.0)
             for k, amount in enumerate(self.part.amounts)
         ]
         if self.part.word == "first":
-            return 0.0, ways[0], stroke
+            return 0.0, distances[0], stroke
         if self.part.word == "last":
-            return size - ways[0], size, stroke
-        return ways[0], size - ways[-1], stroke
+            return size - distances[0], size, stroke
+        return distances[0], size - distances[-1], stroke
 
     @property
     def part_edges(self) -> tuple[int, ...]:

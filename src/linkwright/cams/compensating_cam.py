@@ -219,9 +219,9 @@ class _Search:
 
     def _angles_at(self, ends: tuple[float, float], first: int, last: int) -> tuple[float, float]:
         """The cam's angles at the ends of a zone, between its outermost positions and their neighbours."""
-        way = 1.0 if self.input[-1] > self.input[0] else -1.0
+        sign = 1.0 if self.input[-1] > self.input[0] else -1.0
         low, high = max(first - 1, 0), min(last + 2, len(self.input))
-        found = np.interp([way * each for each in ends], way * self.input[low:high], self.angles[low:high])
+        found = np.interp([sign * each for each in ends], sign * self.input[low:high], self.angles[low:high])
         return float(found[0]), float(found[1])
 
     def _between(self, zone: tuple[float, float]) -> tuple[int, int]:
@@ -242,8 +242,8 @@ class _Search:
         count = round(span / step)
         if not 2 <= count < 0.95 * half:
             raise RequestError(BEYOND_ANGLES)
-        ways = [float(np.ptp(self.values[k : k + count + 1])) for k in range(half)]
-        first = int(np.argmin(ways))
+        ranges = [float(np.ptp(self.values[k : k + count + 1])) for k in range(half)]
+        first = int(np.argmin(ranges))
         return first, first + count
 
     def _motion(self, curve: LiftCurve) -> Motion:
@@ -343,16 +343,16 @@ class _Return:
         u = np.linspace(0.0, 1.0, 65)
         for width in np.linspace(0.15, 0.5, 8) * (end - start):
             for level in levels.tolist():
-                ways = [_passage(each, level, width, back) for each, back in ((first, False), (last, True))]
-                curvature = max(float(np.abs(powers(u, way)[2]).max()) for way in ways) / width**2
+                passages = [_passage(each, level, width, back) for each, back in ((first, False), (last, True))]
+                curvature = max(float(np.abs(powers(u, passage)[2]).max()) for passage in passages) / width**2
                 if curvature < best:
-                    best, self.level, self.width, self.ways = curvature, level, float(width), ways
+                    best, self.level, self.width, self.passages = curvature, level, float(width), passages
 
     def __call__(self, x: Floats) -> Floats:
         """Lift (n,) at angles between start and end, elsewhere the nearest end."""
         left = np.clip((x - self.start) / self.width, 0.0, 1.0)
         right = np.clip((x - self.end) / self.width + 1.0, 0.0, 1.0)
-        falls, rises = powers(left, self.ways[0])[0], powers(right, self.ways[1])[0]
+        falls, rises = powers(left, self.passages[0])[0], powers(right, self.passages[1])[0]
         return np.asarray(falls + rises - self.level)
 
 

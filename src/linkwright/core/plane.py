@@ -66,13 +66,13 @@ def _half(chain: Complexes) -> Indices:
     the line between two others, first of all points at the same time, then of those next to what was left out."""
     number = np.arange(len(chain))
     for _ in range(ROUNDS):
-        bends = _bends(chain[number])
-        if bends.all():
+        convex = _turns_left(chain[number])
+        if convex.all():
             return number[:-1]
-        number = number[np.concatenate([[True], bends, [True]])]
+        number = number[np.concatenate([[True], convex, [True]])]
     places, last = chain[number].tolist(), len(number) - 1
     before, after, there = [*range(-1, last)], [*range(1, last + 2)], [True] * (last + 1)
-    doubtful = (np.flatnonzero(~_bends(chain[number])) + 1).tolist()
+    doubtful = (np.flatnonzero(~_turns_left(chain[number])) + 1).tolist()
     while doubtful:
         k = doubtful.pop()
         if not there[k] or not 0 < k < last:
@@ -85,7 +85,7 @@ def _half(chain: Complexes) -> Indices:
     return number[there][:-1]
 
 
-def _bends(chain: Complexes) -> Flags:
+def _turns_left(chain: Complexes) -> Flags:
     """Where a chain bends to the left, its ends left out."""
     step = chain[1:] - chain[:-1]
     along, across = step.real, step.imag

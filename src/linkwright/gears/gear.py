@@ -278,9 +278,9 @@ class ToothSpace:
             return self.tip.foot(first + share * (last - first))
         assert self.arc is not None
         radius, angle, size, start, end = self.arc
-        way = start + share * (end - start)
-        x = radius * math.cos(angle) + size * np.cos(way)
-        y = radius * math.sin(angle) + size * np.sin(way)
+        angles = start + share * (end - start)
+        x = radius * math.cos(angle) + size * np.cos(angles)
+        y = radius * math.sin(angle) + size * np.sin(angles)
         return np.hypot(x, y), np.arctan2(y, x)
 
     def around(self, gear: Gear, points: int) -> Floats:

@@ -264,7 +264,7 @@ class _Centres:
         for wheel, mine in zip(self.wheels, own, strict=True):
             if not mine:
                 tied = self.entry.reader.names.welded.get(wheel)
-                way = (
+                remedy = (
                     _(
                         '"{wheel}" is welded to "{tied}": name "{tied}" in its place',
                         code="joints.name_welded",
@@ -276,14 +276,14 @@ class _Centres:
                 )
                 self._report(
                     self._without(kind).format(wheel=wheel),
-                    way
+                    remedy
                     or _(
                         'give "{wheel}" a point that a carrier (the frame, an arm) has as well: its centre',
                         wheel=wheel,
                     ),
                 )
                 return None
-        ways = [
+        carriers = [
             (link, p, q)
             for p in own[0]
             for q in own[1]
@@ -293,7 +293,7 @@ class _Centres:
         ]
         bearing = sorted({link for p in own[0] for q in own[1] for link in pins[p] if link in pins[q]})
         bearing = [link for link in bearing if link not in self.wheels]
-        if not ways and self.named is not None and bearing:
+        if not carriers and self.named is not None and bearing:
             problem = _(
                 "{name!r} does not carry the pins of both wheels {wheels}",
                 code="joints.no_such_carrier",
@@ -302,7 +302,7 @@ class _Centres:
             )
             self.entry.finding("carrier", problem, _("they are carried by {names}", names=tuple(bearing)))
             return None
-        if not ways:
+        if not carriers:
             self._report(
                 _(
                     "no link carries the pins of both wheels {wheels}, so nothing fixes their centre distance",
@@ -312,18 +312,19 @@ class _Centres:
                 _("give one link (the frame, an arm) a point in the centre of each of {wheels}", wheels=self.wheels),
             )
             return None
-        ways.sort(key=lambda way: way[0] != "frame")
-        if (len(ways) > 1 and ways[0][0] != "frame") or len([w for w in ways if w[0] == ways[0][0]]) > 1:
+        carriers.sort(key=lambda each: each[0] != "frame")
+        same = [each for each in carriers if each[0] == carriers[0][0]]
+        if (len(carriers) > 1 and carriers[0][0] != "frame") or len(same) > 1:
             self._report(
                 _(
                     "the centres of the wheels may be {names}",
                     code="joints.carriers",
-                    names=tuple(f"{link} ({p}, {q})" for link, p, q in ways),
+                    names=tuple(f"{link} ({p}, {q})" for link, p, q in carriers),
                 ),
                 _("say which link carries both: carrier: NAME"),
             )
             return None
-        return ways[0]
+        return carriers[0]
 
     @staticmethod
     def _without(kind: str) -> Message:

@@ -108,11 +108,12 @@ def _reverses(rows: Sequence[Sequence[float]], size: float) -> bool:
     ahead = [[*row[1:], row[0]] for row in rows]
     if len(rows) == 2:
         size, (c, s), (d, e) = 1.0, rows, ahead
-        ways = [c[k] * e[k] - s[k] * d[k] for k in range(len(c))]
+        increments = [c[k] * e[k] - s[k] * d[k] for k in range(len(c))]
     else:
-        ways = [b - a for a, b in zip(rows[0], ahead[0], strict=True)]
-    minimum_travel = REVERSED * (max(ways) - min(ways))
-    return min(ways) < -minimum_travel < 0.0 < minimum_travel < max(ways) and max(ways) - min(ways) > REVERSED * size
+        increments = [b - a for a, b in zip(rows[0], ahead[0], strict=True)]
+    low, high = min(increments), max(increments)
+    minimum_travel = REVERSED * (high - low)
+    return low < -minimum_travel < 0.0 < minimum_travel < high and high - low > REVERSED * size
 
 
 def _turned(

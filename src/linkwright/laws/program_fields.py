@@ -183,8 +183,8 @@ class ProgramField(Field):
         values = reader.table(node, place, fields)
         if values is None or reader.error_count > before:
             return None
-        ways = [key for key in ("dwell", "rise", "fall", "to") if values.get(key) is not None]
-        if len(ways) != 1:
+        kinds = [key for key in ("dwell", "rise", "fall", "to") if values.get(key) is not None]
+        if len(kinds) != 1:
             reader.error(
                 node,
                 place,
@@ -193,18 +193,18 @@ class ProgramField(Field):
                 "choice",
             )
             return None
-        way = ways[0]
-        if (way == "dwell") == (values.get("over") is not None):
+        kind = kinds[0]
+        if (kind == "dwell") == (values.get("over") is not None):
             problem, remedy = (
                 (_("a dwell says itself how long it is"), _("write {{dwell: 90 deg}} without over"))
-                if way == "dwell"
+                if kind == "dwell"
                 else (_("the segment does not say how long it takes"), _("add over: 90 deg"))
             )
             reader.error(node, place, problem, remedy, "missing-key")
             return None
-        if way == "dwell":
+        if kind == "dwell":
             return Segment(values["dwell"])
-        rise = values["rise"] if way == "rise" else -values["fall"] if way == "fall" else None
+        rise = values["rise"] if kind == "rise" else -values["fall"] if kind == "fall" else None
         ends = values.get("velocity"), values.get("acceleration")
         return Segment(values["over"], rise, values.get("to"), values.get("law") or "polynomial_5", *ends)
 
@@ -216,9 +216,9 @@ class ProgramField(Field):
     def _written_segment(self, segment: Segment, fields: Mapping[str, Field]) -> dict[str, Any]:
         if segment.dwells:
             return {"dwell": fields["dwell"].written(segment.over)}
-        way = "rise" if segment.to is None else "to"
+        kind = "rise" if segment.to is None else "to"
         values = {
-            way: (segment.rise or 0.0) if segment.to is None else segment.to,
+            kind: (segment.rise or 0.0) if segment.to is None else segment.to,
             "over": segment.over,
             "law": segment.law,
             "velocity": segment.velocity,

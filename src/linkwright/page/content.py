@@ -329,10 +329,10 @@ def _turns(page: PagePrograms, link: str) -> bool:
 def _returns_once(course: Floats) -> bool:
     """Whether something goes to and fro once in a closed cycle and rests nowhere."""
     steps = np.diff(course, append=course[0])
-    ways = np.where(np.abs(steps) <= 1e-9 * np.ptp(course), 0.0, np.sign(steps))
-    if ((ways == 0.0) & (np.roll(ways, -1) == 0.0)).any():
+    signs = np.where(np.abs(steps) <= 1e-9 * np.ptp(course), 0.0, np.sign(steps))
+    if ((signs == 0.0) & (np.roll(signs, -1) == 0.0)).any():
         return False
-    moving = ways[ways != 0.0]
+    moving = signs[signs != 0.0]
     return int((moving != np.roll(moving, -1)).sum()) == 2
 
 

@@ -270,9 +270,9 @@ class Picture:
 
     def head(self, tip: ArrayLike, along: ArrayLike, length: float = HEAD[0]) -> None:
         """The head of an arrow that points ``along``."""
-        end, way = np.asarray(tip, dtype=float), np.asarray(along, dtype=float)
-        way = way / (float(np.hypot(*way)) or 1.0)
-        back, side = end - length * way, HEAD[1] * length / HEAD[0] * np.array([-way[1], way[0]])
+        end, direction = np.asarray(tip, dtype=float), np.asarray(along, dtype=float)
+        direction = direction / (float(np.hypot(*direction)) or 1.0)
+        back, side = end - length * direction, HEAD[1] * length / HEAD[0] * np.array([-direction[1], direction[0]])
         self.line([end, back + side, back - side], "thin", closed=True, fill="ink")
 
     def arrow(self, start: ArrayLike, end: ArrayLike, pen: Pen = "thick") -> None:

@@ -260,13 +260,13 @@ class _Chart:
             return
         sheet.words.append(Word(node.across, x0 - source.box.half_width - width(node.across, SIZE), y0 - 5.0))
         lane = x0 + next(lanes)
-        way = [(x0 - source.box.half_width, y0), (lane, y0)]
+        start = [(x0 - source.box.half_width, y0), (lane, y0)]
         if near:
             y1 = target.entry[1]
-            sheet.lines.append(FlowLine(np.array([*way, (lane, y1), (x0, y1)])))
+            sheet.lines.append(FlowLine(np.array([*start, (lane, y1), (x0, y1)])))
             return
         lane = x0 + BACK[0]
-        self._connected(source, target, np.array([way[0], (lane + RADIUS, y0)]), (lane, y0), -1.0)
+        self._connected(source, target, np.array([start[0], (lane + RADIUS, y0)]), (lane, y0), -1.0)
 
     def _forward(self, source: _Seat, target: _Seat, box: Box, *, near: bool) -> None:
         """From a side note down to a later symbol."""

@@ -88,9 +88,9 @@ def _results(job: Job, curve: np.ndarray, closed: bool) -> Iterator[Synthesis | 
 def _even(curve: np.ndarray, closed: bool) -> np.ndarray:
     """Points at equal distances along a polyline."""
     line = np.vstack([curve, curve[:1]]) if closed else curve
-    way = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
-    at = np.linspace(0.0, way[-1], CORNERS, endpoint=not closed)
-    return np.stack([np.interp(at, way, line[:, k]) for k in range(2)], axis=1)
+    arc_length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
+    at = np.linspace(0.0, arc_length[-1], CORNERS, endpoint=not closed)
+    return np.stack([np.interp(at, arc_length, line[:, k]) for k in range(2)], axis=1)
 
 
 def _drawn_candidate(candidate: Candidate, target: np.ndarray) -> Plain:
