@@ -237,7 +237,7 @@ class _Search:
         return int(inside[0]), int(inside[-1])
 
     def _quietest(self, span: float) -> tuple[int, int]:
-        """The ends of the stretch of the input, so long, in which the output varies least."""
+        """The ends of the interval of the input, of this length, in which the output varies least."""
         half, step = self.steps, abs(float(self.input[1] - self.input[0]))
         count = round(span / step)
         if not 2 <= count < 0.95 * half:

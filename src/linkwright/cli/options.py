@@ -141,7 +141,7 @@ def switch(name: str, default: bool | None, help: str) -> Decorator[Any]:
 
 
 def count(name: str, default: int | None = None, *, help: str) -> Decorator[Any]:
-    """An option with a whole number, 1 or more."""
+    """An option that takes an integer, 1 or more."""
     return option(name, "N", of=Integer(1), default=default, help=help)
 
 

@@ -1,4 +1,4 @@
-"""Fonts: files in the system's folders, and those that are given beside them."""
+"""Fonts: files in the system's folders, and those given in addition."""
 
 from __future__ import annotations
 

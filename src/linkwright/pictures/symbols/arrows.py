@@ -33,7 +33,7 @@ def crank_arrow(
     """An arc about a pin with a head: the direction of rotation.
 
     ``middle``: angle of the arc's middle on the paper (rad, clockwise from the right, as y is down);
-    ``turning`` +1: counter-clockwise as seen, -1: clockwise, 0: both ways.
+    ``turning`` +1: counter-clockwise on the paper, -1: clockwise, 0: both ways.
     """
     forward = -1.0 if turning >= 0 else 1.0
     angle = middle + forward * np.linspace(-sweep / 2, sweep / 2, 49)

@@ -89,7 +89,7 @@ def framed(figure: Figure, title: str, request: Request, legend: Legend | None =
 
 class Kind(ABC):
     """A kind of diagram with what it is called in titles; ``options``: those of OPTIONS that it has a use for;
-    ``single``: what is said where several results are given to a kind that shows one."""
+    ``single``: the message where several results are given to a kind that shows one."""
 
     name: ClassVar[str]
     title: ClassVar[Message]

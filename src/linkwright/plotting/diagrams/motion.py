@@ -284,7 +284,7 @@ def _draw(
 
 
 def _worth_marks(source: PlotInput, curve: Floats) -> bool:
-    """Whether a path is long enough, beside the whole machine, for marks along it."""
+    """Whether a path is long enough, relative to the machine, for marks along it."""
     good = curve[np.isfinite(curve).all(axis=1)]
     return len(good) > 2 and float(np.ptp(good, axis=0).max()) > 0.12e3 * extent_of(source.motion)
 
