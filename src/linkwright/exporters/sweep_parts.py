@@ -155,8 +155,9 @@ class SweepParts(Tabular):
             found.append(Table(list(columns), designs, ">" * len(columns), _("Best {number}:", number=best)))
         return tuple(found)
 
-    def data(self, language: str = "en") -> dict[str, Any]:
-        """What lies in the folder: how many designs, and the range of every column, SI; notes in a language."""
+    def data(self, language: str = "en", best: str | None = None) -> dict[str, Any]:
+        """What lies in the folder: how many designs, the range of every column, SI, notes in a language, and the ten
+        designs that are best in a number."""
         columns = {
             name: {"least": low, "greatest": high, "designs": count}
             for name, (low, high, count) in self.ranges().items()
@@ -168,6 +169,7 @@ class SweepParts(Tabular):
             "skipped": self.skipped,
             "columns": columns,
             "notes": [in_language(note, language) for note in self.notes],
+            "best": {} if best is None else {name: each.tolist() for name, each in self.best(best).items()},
         }
 
     def path(self, number: int) -> Path:

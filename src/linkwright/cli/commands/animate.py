@@ -2,18 +2,9 @@
 
 from __future__ import annotations
 
+from linkwright.cli import pictures
 from linkwright.cli.command import command
 from linkwright.cli.options import Options, count, model, option, switch
-from linkwright.cli.pictures import (
-    arrows,
-    cycle,
-    cycle_steps,
-    names,
-    paths,
-    picture_file,
-    refuse_unknown_points,
-    vectors,
-)
 from linkwright.cli.positions import duration
 from linkwright.cli.session import Session
 from linkwright.core.arguments import STEPS
@@ -37,19 +28,19 @@ linkwright animate crusher.yaml --paths C --curves jaw.angle --output crusher.gi
 linkwright animate crusher.yaml --forces --curves driver.effort --seconds 4 --output crusher.mp4""",
 )
 @model
-@cycle_steps(STEPS)
-@paths(_("paths of points with a dot that runs along: C,jaw.D"))
+@pictures.cycle_steps(STEPS)
+@pictures.paths(_("paths of points with a dot that runs along: C,jaw.D"))
 @option(
     "--curves",
     "RESULT",
     several=True,
     help=_("results drawn below: jaw.angle, C.velocity.x; with --forces also driver.effort"),
 )
-@arrows
+@pictures.arrows
 @switch("--labels", True, help=_("names of points"))
 @option("--seconds", "TIME", help=_("time of one cycle on the screen (default: the true one, within 2 to 6 s)"))
 @count("--frames", FRAMES, help=_("positions shown in one cycle (default: {frames})", frames=FRAMES))
-@picture_file((".svg", ".gif", ".mp4"), _("write FILE.svg, FILE.gif or FILE.mp4"))
+@pictures.picture_file((".svg", ".gif", ".mp4"), _("write FILE.svg, FILE.gif or FILE.mp4"))
 def run(options: Options, session: Session) -> int:
     """Writes the moving picture; 1 where positions of the cycle were left out."""
     from linkwright.cli.files import read_model
@@ -58,18 +49,17 @@ def run(options: Options, session: Session) -> int:
 
     seconds = duration(options.seconds, "--seconds")
     mechanism, _findings = read_model(options.file, session)
-    refuse_unknown_points(mechanism, options)
-    motion = cycle(mechanism, max(options.steps, options.frames), session)
-    shown = vectors(motion, options, solved=True)
+    pictures.refuse_unknown_points(mechanism, options)
+    motion = pictures.cycle(mechanism, max(options.steps, options.frames), session)
     animation = animate(
         motion,
-        curves=names(options.curves),
+        curves=pictures.names(options.curves),
         seconds=seconds,
         frames=options.frames,
         size=options.width,
         labels=options.labels,
         language=session.language,
-        **shown,
+        **pictures.vectors(motion, options, solved=True),
     )
     with progress(session, _("drawing")) as report:
         path = animation.save(options.output, width=options.width or WIDTH, progress=report, force=True)

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 from linkwright.cli.command import command
-from linkwright.cli.errors import UsageError
 from linkwright.cli.options import Options, count, flag, fonts, force, model, option, positions, switch
 from linkwright.cli.session import Session
 from linkwright.core.arguments import STEPS
-from linkwright.errors import LinkwrightError
 from linkwright.fields.base import Number
 from linkwright.fields.tables import Integer
 from linkwright.words import _
@@ -105,14 +102,9 @@ def run(options: Options, session: Session) -> int:
     from linkwright.files.source import read_source
 
     path = Path(options.output)
-    settings: dict[str, Any] = {
-        name: getattr(options, name) for name in OPTIONS if getattr(options, name) is not None
-    }
-    try:
-        chosen = chosen_format(path, options.format)
-        check_options(chosen, FORMATS[chosen], settings)
-    except LinkwrightError as error:
-        raise UsageError(error.sentence) from None
+    settings = {name: value for name, value in vars(options).items() if name in OPTIONS and value is not None}
+    chosen = chosen_format(path, options.format)
+    check_options(chosen, FORMATS[chosen], settings)
     refuse_existing(path, force=options.force)
     mechanism, _findings = read_model(options.file, session)
     motion = chosen_motion(mechanism, options, "mark")
@@ -122,8 +114,8 @@ def run(options: Options, session: Session) -> int:
     if chosen == "python":
         settings["model"] = str(options.file)
     solved = mechanism if motion is None else with_forces(motion)
-    common = {"force": options.force, "steps": options.steps, "language": session.language}
-    export(solved, path, format=chosen, **common, **settings)
+    settings |= {"force": options.force, "steps": options.steps, "language": session.language}
+    export(solved, path, format=chosen, **settings)
     session.show_written(path, data={"ok": True, "path": str(path), "format": chosen})
     if motion is None:
         return 0

@@ -73,9 +73,7 @@ def run(options: Options, session: Session) -> int:
             **settings,
         )
     if session.json:
-        best = found.best(options.best) if options.best is not None else {}
-        data = found.data(session.language) | {"best": {name: each.tolist() for name, each in best.items()}}
-        session.show_data({"ok": True, **data})
+        session.show_data({"ok": True, **found.data(session.language, options.best)})
     else:
         session.show_tables(found, best=options.best)
     return 0

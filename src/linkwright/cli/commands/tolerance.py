@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
 from typing import TYPE_CHECKING, cast
 
 from linkwright.cli.command import command
@@ -52,14 +51,6 @@ def run(options: Options, session: Session) -> int:
     from linkwright.parts.file import solve
 
     problem = cast("ToleranceStudy", read(options.file, "tolerance", session))
-    with resumable(options.state, problem.name, inputs_of(problem), session), on_cluster(options.cluster):
+    with resumable(options.state, problem.name, problem.inputs, session), on_cluster(options.cluster):
         show(solve(problem, options.file), options, session)
     return 0
-
-
-def inputs_of(problem: ToleranceStudy) -> tuple[object, ...]:
-    """All that the numbers of a problem depend on."""
-    from linkwright.files.write import dump
-
-    names = {each.name for each in fields(problem)} - {"source", "mechanism"}
-    return dump(problem.mechanism), {name: getattr(problem, name) for name in sorted(names)}

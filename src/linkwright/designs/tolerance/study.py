@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 from linkwright import units
 from linkwright.analysis.base import METRICS
@@ -12,6 +12,7 @@ from linkwright.designs.tolerance.problem import MIN_SAMPLES, Clearance, Toleran
 from linkwright.designs.tolerance.result import Spread
 from linkwright.designs.varied_dimensions import misfits
 from linkwright.errors import Finding, LinkwrightError, ModelError, RequestError, fault
+from linkwright.files.write import dump
 from linkwright.kinematics.names import output_meant
 from linkwright.registry import PROBABLE, nearest
 from linkwright.words import _, pgettext
@@ -25,6 +26,12 @@ class ToleranceStudy(Tolerances):
     (``stroke``, ``peak_reaction A``) where no clearance is pressed; ``curves``: outputs over the cycle;
     ``limits`` by what is asked.
     """
+
+    @property
+    def inputs(self) -> tuple[object, ...]:
+        """Everything that the numbers of the study depend on."""
+        names = {each.name for each in fields(self)} - {"source", "mechanism"}
+        return dump(self.mechanism), {name: getattr(self, name) for name in sorted(names)}
 
     def findings(self) -> list[Finding]:
         found = (
