@@ -107,7 +107,7 @@ CASES = {
     ),
     "half a tooth": (
         "  m: {kind: gear, links: [a, b], teeth: [20.5, 40]}",
-        ("joints.m.teeth", "range", {"message": "{value:g} is no number of teeth", "value": 20.5}),
+        ("joints.m.teeth", "range", {"message": "invalid number of teeth {value:g}", "value": 20.5}),
     ),
     "no size": (
         "  m: {kind: gear, links: [a, b]}",
@@ -277,14 +277,14 @@ CASES = {
     ),
     "rack of half a tooth": (
         GUIDE + "  m: {kind: rack, pinion: a, rack: rack, through: T, teeth: 20.5, module: 2 mm}",
-        ("joints.m.teeth", "range", {"message": "{value:g} is no number of teeth", "value": 20.5}),
+        ("joints.m.teeth", "range", {"message": "invalid number of teeth {value:g}", "value": 20.5}),
     ),
     "pinion's centre without guide": (
         GUIDE + "  m: {kind: rack, pinion: loose, rack: rack, through: T, radius: 20 mm, centre: X}",
         (
             "joints.m.centre",
             "range",
-            {"message": "{centre!r} is no pin to whose link a guide of the rack {rack!r} leads", "centre": "X"},
+            {"message": "{centre!r} is not a pin to whose link a guide of the rack {rack!r} leads", "centre": "X"},
         ),
     ),
     "belt of no size": (

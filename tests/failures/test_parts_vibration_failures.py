@@ -59,7 +59,7 @@ HEAD += "springs: {k: {between: [ground, body], stiffness: 10 kN/m}}\n"
             HEAD + "excitation: {on: body, table: {time: [0 s, 0 s], force: [1 N, 1 N]}}\n",
             "excitation.table",
             "table",
-            {"message": "the measured force is no table of increasing times"},
+            {"message": "the measured force must be a table of increasing times"},
         ),
     ],
 )

@@ -105,7 +105,7 @@ OF_YAML = [
         "8:11",
         "",
         "syntax",
-        {"message": 'the full-width character "{wide}" is no punctuation of YAML', "half": ": ", "wide": "："},
+        {"message": 'the full-width character "{wide}" is not punctuation of YAML', "half": ": ", "wide": "："},
     ),
     (
         "[O1, A]",
@@ -122,7 +122,7 @@ OF_YAML = [
         "8:5",
         "",
         "syntax",
-        {"message": 'the blank after the colon of "{key_}" is no space ({character})', "character": "U+3000"},
+        {"message": 'the blank after the colon of "{key_}" is not a space ({character})', "character": "U+3000"},
     ),
     (
         "length: 1 m",

@@ -34,7 +34,7 @@ class Worded:
         """What the page says for a key of the catalogues (``page.undo``, ``studio.save``)."""
         script = """([key, values]) => {
           linkwright.words.language = linkwright.language.value;
-          return linkwright.words.translate(key, values);
+          return linkwright.words.say(key, values);
         }"""
         said: str = self.tab.evaluate(script, [key, values])
         return said
