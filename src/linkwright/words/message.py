@@ -20,6 +20,7 @@ from linkwright.words.characters import one_line
 
 LOCALES = Path(__file__).parent.parent / "locale"
 LANGUAGES = ("en", *sorted(each.parts[-3] for each in LOCALES.glob("*/LC_MESSAGES/linkwright.mo")))
+Characters = Mapping[int, int | str | None]
 NO_VALUES: Mapping[str, object] = MappingProxyType({})
 _BRACE = re.compile("[{}]")
 _FIELD = re.compile(r"(?<!\{)(?:\{\{)*\{\w")
@@ -71,8 +72,11 @@ class Message(str):
         (msgid, own), about = self.__getnewargs_ex__()
         return Message(msgid, {**own, **values}, **about)
 
-    def translate(self, language: str = "en") -> str:  # type: ignore[override]
-        """The text in a language; raises KeyError for one that does not exist."""
+    def translate(self, language: str | Characters = "en") -> str:  # type: ignore[override]
+        """The text in a language; raises KeyError for one that does not exist. With a table of characters it is
+        ``str.translate``, which other packages call."""
+        if not isinstance(language, str):
+            return super().translate(language)
         if language == "en" or not self.msgid:
             return str.__str__(self)
         known = translations(language)
@@ -155,8 +159,10 @@ class LocalizedText(str):
     def __getnewargs__(self) -> tuple[Mapping[str, str]]:  # type: ignore[override]
         return (self.texts,)
 
-    def translate(self, language: str = LANGUAGES[0]) -> LocalizedText:  # type: ignore[override]
-        """The text in a language."""
+    def translate(self, language: str | Characters = LANGUAGES[0]) -> LocalizedText:  # type: ignore[override]
+        """The text in a language; with a table of characters, as ``str.translate``."""
+        if not isinstance(language, str):
+            return LocalizedText({each: text.translate(language) for each, text in self.texts.items()})
         return LocalizedText(self.texts, language)
 
     def on_one_line(self) -> LocalizedText:
