@@ -168,12 +168,9 @@ def run(argv: Sequence[str]) -> int:
         return shell_complete(PROGRAM, {"obj": session}, "linkwright", COMPLETE, instruction)
     try:
         session = _session(argv, usual)
-        with PROGRAM.make_context("linkwright", [*argv], obj=session) as ctx:
-            code = PROGRAM.invoke(ctx)
+        code = _invoke(argv, session)
         session.flush()
-        return int(code)
-    except click.exceptions.Exit as done:
-        return done.exit_code
+        return code
     except BrokenPipeError:
         _discard_output()
         return FINE
@@ -194,6 +191,14 @@ def run(argv: Sequence[str]) -> int:
             session.tell(session.translate(_("interrupted")))
             return INTERRUPTED
         return _unexpected(error, session)
+
+
+def _invoke(argv: Sequence[str], session: Session) -> int:
+    try:
+        with PROGRAM.make_context("linkwright", [*argv], obj=session) as ctx:
+            return int(PROGRAM.invoke(ctx))
+    except click.exceptions.Exit as done:
+        return done.exit_code
 
 
 def _session(argv: Sequence[str], usual: str) -> Session:
