@@ -73,12 +73,6 @@ def synthesize_file(source: str | Path) -> Synthesis:
     return synthesize(task, **demands)
 
 
-def synthesize_text(text: str, name: str = "<text>") -> Synthesis:
-    """Runs the section ``synthesis`` of a text; ``name``: the file as findings name it."""
-    task, demands = asked_in(text, name)
-    return synthesize(task, **demands)
-
-
 def asked_of(source: str | Path) -> tuple[str, dict[str, Any]]:
     """Task and demands (SI) of the section ``synthesis`` of a file; raises ModelError."""
     text, name = read_source(source)
