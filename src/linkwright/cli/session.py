@@ -118,7 +118,7 @@ class Session:
     def tell_error(self, sentence: str) -> None:
         """Prints an error to the standard error."""
         head = self.translate(_("error"))
-        styled = Text(terminal_text(self.translate(_("{head}: {sentence}", head=head, sentence=sentence))))
+        styled = plain(self.translate(_("{head}: {sentence}", head=head, sentence=sentence)))
         styled.stylize(STYLES["error"], 0, len(head))
         self.tell(styled)
 
@@ -136,7 +136,7 @@ class Session:
 
     def finding(self, found: Finding) -> Text:
         """A finding in the chosen language: the place bold, the rest by its severity."""
-        styled = Text(terminal_text(found.translate(self.language)))
+        styled = plain(found.translate(self.language))
         place = "".join(f"{part}: " for part in (found.where, found.key) if part)
         styled.stylize("bold", 0, len(place.rstrip()))
         styled.stylize(STYLES[found.severity], len(place))
@@ -147,13 +147,13 @@ class Session:
         title, notes = (in_language(table.title, self.language), [in_language(n, self.language) for n in table.notes])
         head, *rows = table.texts(self.language)
         if title:
-            yield Text(title, "bold" if first else "")
+            yield plain(title, "bold" if first else "")
             yield from [Text("")] if head else []
         if rows:
             lines = [head, *rows] if head else rows
             yield grid(lines, table.alignment, indent=0 if head else 2, heads=bool(head))
             yield from [Text("")] if head and notes else []
-        yield from (Text(note, STYLES["warning"] if note.startswith("!") else "") for note in notes)
+        yield from styled_lines(notes)
 
     def _print(self, shown: RenderableType) -> None:
         with _writing():
@@ -166,25 +166,25 @@ def grid(rows: Sequence[Sequence[str]], align: str, *, indent: int = 0, heads: i
     for side in align:
         table.add_column(justify=_SIDES[side], no_wrap=side == ">", overflow="fold")
     for number, row in enumerate(rows):
-        cells = (Text(" " * indent * (not i) + cell) for i, cell in enumerate(row))
+        cells = (plain(" " * indent * (not i) + cell) for i, cell in enumerate(row))
         table.add_row(*cells, style="bold" if number < heads else None)
     return table
 
 
-def plain(text: str) -> Text:
+def plain(text: str, style: str = "") -> Text:
     """A text without what no terminal should get."""
-    return Text(terminal_text(text))
+    return Text(terminal_text(text), style)
 
 
 def bold(text: str) -> Text:
     """A text that is bold on a terminal."""
-    return Text(terminal_text(text), "bold")
+    return plain(text, "bold")
 
 
 def styled_lines(lines: Sequence[str], heads: int = 0) -> list[Text]:
     """Lines of a table: the first ones bold, and those that begin with ! yellow."""
     return [
-        Text(terminal_text(line), "bold" if k < heads else STYLES["warning"] if line.startswith("!") else "")
+        plain(line, "bold" if k < heads else STYLES["warning"] if line.startswith("!") else "")
         for k, line in enumerate(lines)
     ]
 
