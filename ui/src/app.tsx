@@ -1,7 +1,7 @@
 // The page: machines side by side, each with its drawing, metrics, dimensions and curves.
 import { useComputed } from "@preact/signals";
 import type { ComponentChildren } from "preact";
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import { Comparison } from "./compare";
 import { Curves } from "./curves";
 import type { Dimension } from "./data";
@@ -327,7 +327,7 @@ export function Card({ page, session }: { page: Page; session: Session }) {
 
 export function App({ page }: { page: Page }) {
   const language = page.language.value;
-  useEffect(() => {
+  useLayoutEffect(() => {
     document.documentElement.lang = language === "zh" ? "zh-CN" : "en";
     document.title = page.say("title", { name: page.sessions.map((each) => each.data.name[language]).join(", ") });
   }, [language]);

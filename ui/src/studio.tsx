@@ -234,7 +234,7 @@ function Room({ desk }: { desk: Desk }) {
   const header = useHeight();
   const { page } = desk, beside = desk.beside.value, session = desk.solved.value.model && desk.session.value, language = page.language.value;
   void desk.text.value;
-  useEffect(() => {
+  useLayoutEffect(() => {
     document.documentElement.lang = language === "zh" ? "zh-CN" : "en";
     document.title = `${desk.name.value || desk.say("new")} – Linkwright`;
     if (desk.name.value) remember({ file: desk.name.value, lang: language });
