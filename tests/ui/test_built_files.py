@@ -18,7 +18,7 @@ MOST = 65_000  # bytes of a page with a small model
 def test_built_files_fit_their_sources() -> None:
     """The hash that the build wrote; after a change of the sources: ``npm run build`` in ``ui``."""
     made = hashlib.sha256()
-    names = [f"src/{path.name}" for path in sorted((UI / "src").iterdir(), key=lambda path: path.name)]
+    names = sorted(path.relative_to(UI).as_posix() for path in (UI / "src").rglob("*") if path.is_file())
     names += ["package-lock.json", *sorted(path.name for path in UI.glob("vite.*ts"))]
     for name in names:
         made.update(f"{name}\n".encode())

@@ -6,6 +6,7 @@ import { save, type Page } from "./living";
 import { code, type Values } from "./solver";
 import type { Action, Picture } from "./picture";
 import { Session } from "./session";
+import type { Gap, Outline, Structure } from "./studio/outline";
 
 export interface Found {
   severity: string;
@@ -21,6 +22,10 @@ export interface Solved {
   picture?: Picture;
   sentence: string;
   mobility?: number;
+  outline?: Outline;
+  structure?: Structure;
+  /** Why the machine cannot be assembled; null: it can. */
+  gap?: Gap | null;
   /** The text that it is about. */
   text?: string;
   /** What the text asks an optimisation. */

@@ -16,8 +16,9 @@ UI = Path(__file__).resolve().parents[3] / "ui"
 @pytest.mark.skipif(not UI.is_dir(), reason="the front end's sources are not here")
 def test_every_sentence_that_the_studio_says_is_in_the_catalogues() -> None:
     """By the keys in its sources, those of its tools among them, in both languages."""
-    sources = [(UI / "src" / name).read_text() for name in ("desk.ts", "optimise.tsx", "paper.ts", "studio.tsx")]
-    said = {key for text in sources for key in re.findall(r'(?:desk\.say|this\.say|tell\?\.|\bsay)\("(\w+)"', text)}
+    named = [UI / "src" / name for name in ("desk.ts", "optimise.tsx", "paper.ts", "studio.tsx")]
+    sources = [path.read_text() for path in (*named, *(UI / "src" / "studio").rglob("*.ts*"))]
+    said = {key for text in sources for key in re.findall(r'(?:\.say|tell\?\.|\.refuse|\bsay)\("([\w.]+)"', text)}
     (tools,) = (found[1] for text in sources if (found := re.search(r"const TOOLS: Tool\[\] = \[(.*)\]", text)))
     names = re.findall(r'"(\w+)"', tools)
     said |= {*names, *(f"help_{name}" for name in names)}

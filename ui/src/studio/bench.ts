@@ -1,0 +1,112 @@
+// The workbench: what is selected, in hand and shown, beside the document (Desk) and the machine that it makes (Session).
+import { computed, signal } from "@preact/signals";
+import type { Desk } from "../desk";
+import type { Session } from "../session";
+import type { Vec } from "../shapes";
+import type { Gap } from "./outline";
+
+export const TOOLS = [
+  "move", "pivot", "link", "plate", "slider", "slot", "weld", "gears", "rack", "cam", "drive", "force", "torque", "spring", "mass", "dimension", "target",
+  "photo", "erase",
+] as const;
+export type ToolName = (typeof TOOLS)[number];
+export const TABS = ["inspect", "numbers", "findings", "structure", "text"] as const;
+export type Tab = (typeof TABS)[number];
+export const DOCKS = ["curves", "sweep", "synthesis", "optimise", "compare"] as const;
+export type DockName = (typeof DOCKS)[number];
+export const SHOWN = [
+  "velocities", "accelerations", "forces", "loads", "transmission", "paths", "limits", "centres", "names", "dimensions", "reach", "grid",
+] as const;
+export type ShownName = (typeof SHOWN)[number];
+
+/** What can be selected. A `point` may be a joint, a pivot or a point of one link; a `pair` is an entry of `joints`. */
+export interface Item {
+  kind: "point" | "link" | "pair" | "load" | "driver" | "dimension" | "target" | "photo";
+  name: string;
+}
+
+export const same = (a: Item | null, b: Item | null) => a?.kind === b?.kind && a?.name === b?.name;
+
+/** Settings of the person at the screen, remembered in the browser, not in the file. */
+export interface Settings {
+  theme: "light" | "dark" | "";
+  slim: boolean | null;
+  inspector: number;
+  dock: number;
+  snap: boolean;
+  /** Spacing of the grid, m; 0: by the zoom. */
+  grid: number;
+  unit: "mm" | "cm" | "m" | "in";
+  /** How often each tool has been used: its hint goes after three times. */
+  used: Partial<Record<ToolName, number>>;
+  shown: Partial<Record<ShownName, boolean>>;
+}
+
+const SETTINGS: Settings = { theme: "", slim: null, inspector: 340, dock: 260, snap: true, grid: 0, unit: "mm", used: {}, shown: {} };
+const STORED = "linkwright.settings";
+
+export class Bench {
+  readonly tool = signal<ToolName>("move");
+  readonly selection = signal<Item[]>([]);
+  readonly hovered = signal<Item | null>(null);
+  readonly tab = signal<Tab>("inspect");
+  readonly dock = signal<DockName | null>(null);
+  readonly settings = signal<Settings>(stored());
+  /** Where the pointer or the cross is, m; null: not on the sheet. */
+  readonly cursor = signal<Vec | null>(null);
+  /** Pixels of the screen for a metre. */
+  readonly scale = signal(2400);
+  /** A sentence at the cursor, why a click was refused. */
+  readonly refusal = signal<{ sentence: string; at: Vec } | null>(null);
+  /** Why the machine cannot be assembled, drawn on the sheet. */
+  readonly gap = computed<Gap | null>(() => this.desk.solved.value.gap ?? null);
+  /** The machine of the present text; null where the text makes none. */
+  readonly session = computed<Session | null>(() => (this.desk.solved.value.model ? this.desk.session.value : null));
+
+  constructor(readonly desk: Desk) {}
+
+  get page() {
+    return this.desk.page;
+  }
+
+  say = (key: string, values: Record<string, string> = {}) => this.desk.say(key, values);
+
+  select(...items: Item[]): void {
+    this.selection.value = items;
+  }
+
+  /** The only selected element. */
+  get one(): Item | null {
+    const { value } = this.selection;
+    return value.length === 1 ? value[0] : null;
+  }
+
+  has(item: Item): boolean {
+    return this.selection.value.some((each) => same(each, item));
+  }
+
+  shows(name: ShownName): boolean {
+    return this.settings.value.shown[name] ?? ["loads", "names", "grid", "paths", "reach", "dimensions"].includes(name);
+  }
+
+  set(change: Partial<Settings>): void {
+    this.settings.value = { ...this.settings.value, ...change };
+    try {
+      localStorage.setItem(STORED, JSON.stringify(this.settings.value));
+    } catch {
+      // A browser that stores nothing forgets the settings with the page.
+    }
+  }
+
+  show(name: ShownName, on: boolean): void {
+    this.set({ shown: { ...this.settings.value.shown, [name]: on } });
+  }
+}
+
+function stored(): Settings {
+  try {
+    return { ...SETTINGS, ...(JSON.parse(localStorage.getItem(STORED) ?? "{}") as Partial<Settings>) };
+  } catch {
+    return SETTINGS;
+  }
+}

@@ -1,0 +1,86 @@
+// What every tool of the rail is: how it takes the pointer, typed values and keys, and what it draws over the sheet.
+import type { Action } from "../../picture";
+import type { Vec } from "../../shapes";
+import type { Bench, Item, ToolName } from "../bench";
+import type { Camera } from "../sheet/camera";
+import type { Scene } from "../sheet/scene";
+
+/** What the pointer (or the cross of the keyboard) is on. `place`: in metres, snapped unless Alt is held; `free`: as it is. */
+export interface Spot {
+  screen: Vec;
+  place: Vec;
+  free: Vec;
+  /** What it has snapped to, with a sentence such as "Pivot O₂"; null: nothing. */
+  snap: Snap | null;
+  /** What is under the pointer, in the order of selection; a click takes the first. */
+  under: Item[];
+  shift: boolean;
+  alt: boolean;
+  touch: boolean;
+}
+
+export interface Snap {
+  kind: "point" | "length" | "link" | "line" | "angle" | "grid" | "guide";
+  sentence: string;
+  at: Vec;
+  /** The point or link of the drawing, by name. */
+  name: string;
+}
+
+/** A value in hand: typed at the cursor, fixed while the pointer moves on. `text`: as typed; null: it follows the pointer. */
+export interface Field {
+  key: string;
+  label: string;
+  quantity: "length" | "angle" | "force" | "torque" | "stiffness" | "mass" | "teeth" | "number";
+  /** As it is now (SI; angles rad), or a text such as 20 : 40. */
+  value: number | string;
+  text: string | null;
+}
+
+/** Strokes over the sheet, in pixels of the screen; cleared before every drawing. */
+export interface Overlay {
+  path(d: string, style: string): void;
+  circle(at: Vec, r: number, style: string): void;
+  text(at: Vec, text: string, style: string): void;
+  /** A dimension line between two places with its text, at a distance from them (px). */
+  dimension(a: Vec, b: Vec, text: string, style: string, off?: number): void;
+}
+
+/** What a tool may use of the sheet. */
+export interface Sheet {
+  readonly bench: Bench;
+  readonly camera: Camera;
+  readonly scene: Scene;
+  /** Carries out actions on the text as one step that can be undone; gives the names that were made, null where the text
+   *  does not admit them (the sentence is shown at the cursor). */
+  act(actions: Action[]): Promise<string[] | null>;
+  /** Says why a click was refused, at the cursor. */
+  refuse(key: string, values?: Record<string, string>): void;
+  /** Draws what is over the sheet again. */
+  redraw(): void;
+  /** Ends the tool and takes another one. */
+  take(tool: ToolName): void;
+}
+
+export interface Tool {
+  readonly name: ToolName;
+  /** The next step, as a key of words with its values. */
+  hint(): [key: string, values?: Record<string, string>];
+  down?(spot: Spot): void;
+  move?(spot: Spot): void;
+  up?(spot: Spot): void;
+  enter?(): void;
+  /** Goes back one step and leaves nothing behind; false where there was none to go back. */
+  escape(): boolean;
+  /** The values in hand, the first one takes digits at once; none: no panel. */
+  fields?(): Field[];
+  /** A typed value, "" to let it follow the pointer again; a sentence where it cannot be read. */
+  type?(key: string, text: string): string | null;
+  /** Whether it can do something with an element: only those light up. */
+  takes?(item: Item): boolean;
+  draw?(over: Overlay): void;
+  /** Another tool is chosen. */
+  leave(): void;
+}
+
+export type MakeTool = (sheet: Sheet) => Tool;

@@ -1,0 +1,14 @@
+import { defineConfig } from "vite";
+
+export default defineConfig({
+  build: {
+    outDir: "../src/linkwright/page/built",
+    emptyOutDir: false,
+    cssCodeSplit: false,
+    modulePreload: false,
+    rollupOptions: {
+      input: "src/studio/studio.tsx",
+      output: { format: "iife", entryFileNames: "workbench.js", assetFileNames: "workbench.[ext]" },
+    },
+  },
+});
