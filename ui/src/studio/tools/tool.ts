@@ -5,6 +5,12 @@ import type { Bench, Item, ToolName } from "../bench";
 import type { Camera } from "../sheet/camera";
 import type { Scene } from "../sheet/scene";
 
+/** The key that takes each tool; its name is "tool.…" among the words. */
+export const KEYS: Record<ToolName, string> = {
+  move: "V", pivot: "P", link: "L", plate: "B", slider: "S", slot: "O", weld: "W", gears: "G", rack: "R", cam: "C", drive: "D", force: "F", torque: "T",
+  spring: "K", mass: "M", dimension: "N", target: "U", photo: "I", erase: "E",
+};
+
 /** What the pointer (or the cross of the keyboard) is on. `place`: in metres, snapped unless Alt is held; `free`: as it is. */
 export interface Spot {
   screen: Vec;
