@@ -41,6 +41,8 @@ export interface Field {
   /** As it is now (SI; angles rad), or a text such as 20 : 40. */
   value: number | string;
   text: string | null;
+  /** Shown only once something is typed. */
+  quiet?: boolean;
 }
 
 /** Strokes over the sheet, in pixels of the screen; cleared before every drawing. */
@@ -78,6 +80,8 @@ export interface Tool {
   enter?(): void;
   /** Goes back one step and leaves nothing behind; false where there was none to go back. */
   escape(): boolean;
+  /** Where the element in hand begins, m: the sheet snaps to directions from there and to lengths equal to others; null: nothing is in hand. */
+  anchor?(): Vec | null;
   /** The values in hand, the first one takes digits at once; none: no panel. */
   fields?(): Field[];
   /** A typed value, "" to let it follow the pointer again; a sentence where it cannot be read. */
