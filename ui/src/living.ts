@@ -42,6 +42,12 @@ export class Page {
     return Math.min(count - 1, Math.floor(this.phase.value * (closed ? count : count - 1) + 0.5) % count);
   }
 
+  /** The place among the positions that is shown; the position is the nearest one. */
+  place(session: Session): number {
+    const { count, closed } = session.data.positions;
+    return this.phase.value * (closed ? count : count - 1);
+  }
+
   play(on: boolean): void {
     this.playing.value = on;
     if (on) requestAnimationFrame((now) => {

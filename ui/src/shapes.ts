@@ -42,8 +42,7 @@ export class Shapes {
     return this.model.data.glyphs;
   }
 
-  private pair(name: string, i: number, missing: Vec): Vec {
-    const { main } = this.model;
+  private pair(name: string, i: number, missing: Vec, main = this.model.main): Vec {
     return main.has(`${name}.x`) ? [main.row(`${name}.x`)[i], main.row(`${name}.y`)[i]] : missing;
   }
 
@@ -163,12 +162,12 @@ export class Shapes {
   }
 
   /** Direction of a flat face: across its guide, or along its arm. */
-  line(glyph: Glyph, i: number): Vec {
+  line(glyph: Glyph, i: number, call = this.model.main): Vec {
     if (glyph.joint) {
-      const [x, y] = this.pair(`d:${glyph.joint}`, i, [1, 0]);
+      const [x, y] = this.pair(`d:${glyph.joint}`, i, [1, 0], call);
       return [-y, x];
     }
-    const [a, b] = [this.place(glyph.tie!, i), this.place(glyph.trace!, i)], d = Math.hypot(b[0] - a[0], b[1] - a[1]);
+    const [a, b] = [glyph.tie!, glyph.trace!].map((key) => this.pair(`p:${key}`, i, [NaN, NaN], call)), d = Math.hypot(b[0] - a[0], b[1] - a[1]);
     return [(b[0] - a[0]) / d, (b[1] - a[1]) / d];
   }
 }

@@ -278,23 +278,23 @@ export class Solver {
 
   // single positions -----------------------------------------------------------------------
 
-  /** Where a point is at position i; not a number where the machine does not close. */
+  /** Where a point is at a place among the positions; not a number where the machine does not close. */
   place(values: Values, key: string, i: number): [number, number] {
     this.at(values, i);
     if (this.one.row("outcome")[0] !== 0) return [NaN, NaN];
     return [this.one.row(`p:${key}.x`)[0], this.one.row(`p:${key}.y`)[0]];
   }
 
-  /** Evaluates one position; groups without closed form start from the rows that are there. */
+  /** Evaluates one place; groups without closed form start from the rows that are there. */
   private at(values: Values, i: number): void {
-    const call = this.one;
+    const call = this.one, near = this.near(i), given = Number.isInteger(i) ? null : this.inputsAt(this.within(i));
     call.set({ ...values, ...this.found });
     for (const name in call.positions) {
       const row = this.arrays[name];
-      if (row) call.positions[name].fill(row[Math.min(i, row.length - 1)]);
+      if (row) call.positions[name].fill(given?.[name] ?? row[Math.min(near, row.length - 1)]);
     }
-    for (const name in call.fields) call.fields[name].fill(this.main.fields[name][i]);
-    if (this.iterated) this.settle(call, this.after(this.main, i));
+    for (const name in call.fields) call.fields[name].fill(this.main.fields[name][near]);
+    if (this.iterated) this.settle(call, this.after(this.main, near));
     else call.run();
   }
 
@@ -348,6 +348,18 @@ export class Solver {
     for (const name in found) call.fields[name]?.fill(found[name]);
     if (found) call.run();
     return friction.length && !this.locking && !settle(call, friction) ? NaN : value(call);
+  }
+
+  /** The machine with its loads at a place between the positions; null where it is not known there. */
+  whole(place: number): Call | null {
+    let found: Call | null = null;
+    this.forceAt(place, (call) => ((found = call), 0));
+    return found && (found as Call).row("ok")[0] !== 0 ? found : this.closed(place);
+  }
+
+  /** The same without loads, where friction finds no effort. */
+  private closed(place: number): Call | null {
+    return this.run(place) && this.one.row("ok")[0] !== 0 ? this.one : null;
   }
 
   /** The drivers' inputs at a place; null where they are not known. */

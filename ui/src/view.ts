@@ -1,5 +1,6 @@
 // The machine drawn in the standard symbols: elements made once, moved at every frame.
 import type { Glyph } from "./data";
+import type { Call } from "./engine";
 import type { Model } from "./model";
 import type { Values } from "./solver";
 import { Names } from "./names";
@@ -36,17 +37,27 @@ export interface Ghost {
   y: ArrayLike<number>;
 }
 
+/** Where a drawing is looked at from outside of it: pixels for a metre, the origin and the size of the paper, px. */
+export interface Lens {
+  scale: number;
+  origin: Vec;
+  size: Vec;
+}
+
 export class View {
   readonly svg: SVGElement;
   private readonly layers: Record<string, SVGElement> = {};
-  private readonly drawn: ((i: number) => void)[] = [];
+  private readonly drawn: (() => void)[] = [];
   /** What is found again when the machine or the scale has changed, not at every position. */
   private readonly settled: (() => void)[] = [];
   private readonly shapes: Shapes;
   private readonly pen: CanvasRenderingContext2D;
   readonly end: () => void;
   private ghostly: Ghost[] = [];
-  private seen: { values: Values | null; scale: number; paths: string } = { values: null, scale: 0, paths: "" };
+  private seen: { values: Values | null; scale: number; paths: string; shift: string } = { values: null, scale: 0, paths: "", shift: "" };
+  /** What holds the machine at the place that is drawn, and where in its rows. */
+  private now: Call;
+  private k = 0;
   private readonly handles = new Map<string, SVGElement>();
   private readonly names: Names;
   /** Ends of the strokes that are drawn, which names keep clear of. */
@@ -60,8 +71,10 @@ export class View {
   zoom = 1;
   index = 0;
 
-  constructor(readonly model: Model, host: HTMLElement, public shown: Shown) {
+  /** `lens`: the paper is looked at through it; without one the view fits itself and has handles to drag. */
+  constructor(readonly model: Model, host: HTMLElement, public shown: Shown, private readonly lens: Lens | null = null) {
     this.shapes = new Shapes(model);
+    this.now = model.main;
     const { canvas, pen, end } = painted(host, () => this.drawGhosts());
     canvas.setAttribute("aria-hidden", "true");
     [this.pen, this.end] = [pen, end];
@@ -70,7 +83,7 @@ export class View {
     model.data.glyphs.forEach((glyph, number) => this.drawn.push(this.glyph(glyph, number)));
     this.names = new Names(model.data.points.map(({ key }) => key), this.layers.names);
     for (const { key, fixed, moved } of model.data.points) {
-      if (!moved.length) continue;
+      if (!moved.length || lens) continue;
       const handle = element("circle", { class: fixed ? "handle fixed" : "handle", r: 13, tabindex: 0, role: "button", "aria-label": key }, this.layers.handles);
       handle.dataset.key = key;
       this.handles.set(key, handle);
@@ -81,6 +94,7 @@ export class View {
   /** On narrow paper symbols are drawn smaller: `zoom` pixels are one unit of the picture. */
   resize(width: number, height: number): void {
     if (width < 1 || height < 1) return;
+    if (this.lens) return this.look();
     const crowded = Math.min(1, Math.sqrt(POINTS / this.names.count));
     this.zoom = Math.min(1, Math.max(SMALLEST, (crowded * width) / WIDE));
     [this.width, this.height] = [width / this.zoom, height / this.zoom];
@@ -91,8 +105,27 @@ export class View {
     this.drawGhosts();
   }
 
+  /** The lens has moved. */
+  look(): void {
+    if (!this.lens) return;
+    const { scale, origin, size } = this.lens, [width, height] = size;
+    if (width !== this.width || height !== this.height) this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    [this.scale, this.shift, this.width, this.height] = [scale, origin, width, height];
+    this.draw(this.index);
+    this.drawGhosts();
+  }
+
   /** Puts all that the points reach into the picture. */
   fit(): void {
+    if (this.lens) return;
+    const margin = 46, [left, low, right, high] = this.box, size = Math.max(right - left, high - low) || 1;
+    const wide = Math.max(right - left, 0.05 * size), tall = Math.max(high - low, 0.05 * size);
+    this.scale = Math.min((this.width - 2 * margin) / wide, (this.height - 2 * margin) / tall);
+    this.shift = [this.width / 2 - (this.scale * (left + right)) / 2, this.height / 2 + (this.scale * (low + high)) / 2];
+  }
+
+  /** What the machine reaches over all its positions, m: left, low, right, high. */
+  get box(): [number, number, number, number] {
     let [left, right, low, high] = [Infinity, -Infinity, Infinity, -Infinity];
     const take = (xs: ArrayLike<number>, ys: ArrayLike<number>, r = 0) => {
       for (let i = 0; i < xs.length; i++) {
@@ -102,10 +135,7 @@ export class View {
     };
     for (const { key } of this.model.data.points) take(this.model.main.row(`p:${key}.x`), this.model.main.row(`p:${key}.y`), this.radius(key));
     for (const glyph of this.model.data.glyphs) if (glyph.kind === "rack") take(...this.shapes.reach(glyph));
-    const margin = 46, size = Math.max(right - left, high - low) || 1;
-    const wide = Math.max(right - left, 0.05 * size), tall = Math.max(high - low, 0.05 * size);
-    this.scale = Math.min((this.width - 2 * margin) / wide, (this.height - 2 * margin) / tall);
-    this.shift = [this.width / 2 - (this.scale * (left + right)) / 2, this.height / 2 + (this.scale * (low + high)) / 2];
+    return [left, low, right, high];
   }
 
   /** How far wheels and cams reach about a point, m. */
@@ -119,9 +149,9 @@ export class View {
 
   /** Whether a part of the machine has left the picture. */
   get outside(): boolean {
-    return this.model.data.points.some(({ key }) => {
+    return !this.lens && this.model.data.points.some(({ key }) => {
       for (let i = 0; i < this.model.n; i += 8) {
-        const [x, y] = this.at(key, i);
+        const { main } = this.model, [x, y] = this.paper(main.row(`p:${key}.x`)[i], main.row(`p:${key}.y`)[i]);
         if (x < 4 || y < 4 || x > this.width - 4 || y > this.height - 4) return true;
       }
       return false;
@@ -136,38 +166,43 @@ export class View {
     return [(x - this.shift[0]) / this.scale, (this.shift[1] - y) / this.scale];
   }
 
-  private at(key: string, i: number): Vec {
-    const { main } = this.model;
-    return this.paper(main.row(`p:${key}.x`)[i], main.row(`p:${key}.y`)[i]);
+  private row(name: string): number {
+    return this.now.row(name)[this.k];
   }
 
-  private way(name: string | number, i: number): Vec {
+  private at(key: string): Vec {
+    return this.paper(this.row(`p:${key}.x`), this.row(`p:${key}.y`));
+  }
+
+  private way(name: string | number): Vec {
     if (typeof name === "number") return [Math.cos(name), Math.sin(name)];
-    const { main } = this.model;
-    return [main.row(`${name}.x`)[i], -main.row(`${name}.y`)[i]];
+    return [this.row(`${name}.x`), -this.row(`${name}.y`)];
   }
 
+  /** The machine at a place among its positions; between them it is solved, where that is known. */
   draw(i: number): void {
     this.index = i;
-    const { values } = this.model, paths = [...this.shown.paths].join();
+    const { values, main, solver, n } = this.model, paths = [...this.shown.paths].join(), shift = this.lens ? this.shift.join() : "";
+    const found = Number.isInteger(i) ? null : solver.whole(i);
+    [this.now, this.k] = found ? [found, 0] : [main, Math.round(i) % n];
     const settled = this.seen.values === values && this.seen.scale === this.scale;
     if (!settled) {
       this.shapes.forget();
       for (const each of this.settled) each();
     }
-    if (!settled || paths !== this.seen.paths) this.drawPaths();
-    this.seen = { values, scale: this.scale, paths };
+    if (!settled || paths !== this.seen.paths || shift !== this.seen.shift) this.drawPaths();
+    this.seen = { values, scale: this.scale, paths, shift };
     this.ink = [];
-    for (const each of this.drawn) each(i);
-    for (const [key, handle] of this.handles) place(handle, "cx", "cy", this.at(key, i));
-    this.drawVectors(i);
-    this.writeNames(i);
+    for (const each of this.drawn) each();
+    for (const [key, handle] of this.handles) place(handle, "cx", "cy", this.at(key));
+    this.drawVectors();
+    this.writeNames();
     this.layers.marks.classList.toggle("without-centres", !this.shown.centres);
   }
 
-  private writeNames(i: number): void {
+  private writeNames(): void {
     this.layers.names.classList.toggle("hidden", !this.shown.names);
-    if (this.shown.names) this.names.write((key) => this.at(key, i), this.ink, this.zoom, this.width, this.height);
+    if (this.shown.names) this.names.write((key) => this.at(key), this.ink, this.zoom, this.width, this.height);
   }
 
   /** The path of a stroke, which names keep clear of. */
@@ -178,39 +213,39 @@ export class View {
 
   // glyphs -------------------------------------------------------------------------------
 
-  private glyph(glyph: Glyph, number: number): (i: number) => void {
+  private glyph(glyph: Glyph, number: number): () => void {
     const layer = this.layers[glyph.layer];
     const path = (style: string) => element("path", { class: style }, layer);
     switch (glyph.kind) {
       case "stamp": return this.stamp(glyph, layer);
       case "bar": {
         const bar = path("lw-bar");
-        return (i) => put(bar, "d", this.stroke(glyph.points!.map((key) => this.at(key, i))));
+        return () => put(bar, "d", this.stroke(glyph.points!.map((key) => this.at(key))));
       }
       case "plate": {
         const plate = path("lw-plate");
-        return (i) => put(plate, "d", this.stroke(hull(glyph.points!.map((key) => this.at(key, i))), true));
+        return () => put(plate, "d", this.stroke(hull(glyph.points!.map((key) => this.at(key))), true));
       }
       case "spring": {
         const spring = path("lw-spring");
-        return (i) => put(spring, "d", line(zigzag(this.at(glyph.points![0], i), this.at(glyph.points![1], i))));
+        return () => put(spring, "d", line(zigzag(this.at(glyph.points![0]), this.at(glyph.points![1]))));
       }
       case "damper": {
         const damper = path("lw-spring");
-        return (i) => put(damper, "d", dashpot(this.at(glyph.points![0], i), this.at(glyph.points![1], i)));
+        return () => put(damper, "d", dashpot(this.at(glyph.points![0]), this.at(glyph.points![1])));
       }
       case "passing": {
         const bar = path("lw-bar");
-        return (i) => {
-          const [a, b] = glyph.points!.map((key) => this.at(key, i)), at = this.at(glyph.at!, i), u = unit(a, b);
+        return () => {
+          const [a, b] = glyph.points!.map((key) => this.at(key)), at = this.at(glyph.at!), u = unit(a, b);
           put(bar, "d", this.stroke([away(at, u, -glyph.length!), away(at, u, glyph.length!)]));
         };
       }
       case "stub": {
         const bar = path("lw-bar");
-        return (i) => {
-          const at = this.at(glyph.at!, i);
-          put(bar, "d", this.stroke([at, away(at, this.way(`d:${glyph.joint}`, i), glyph.shift!)]));
+        return () => {
+          const at = this.at(glyph.at!);
+          put(bar, "d", this.stroke([at, away(at, this.way(`d:${glyph.joint}`), glyph.shift!)]));
         };
       }
       case "rail": return this.rail(glyph, path("lw-ground"), path("lw-hatch"));
@@ -221,8 +256,8 @@ export class View {
       case "cam": return this.cam(glyph, layer);
       case "strands": {
         const strands = path("lw-spring");
-        return (i) => {
-          const [a, b] = glyph.points!.map((key) => this.at(key, i)), [r, s] = glyph.radii!.map((each) => amount(each, this.model.values) * this.scale);
+        return () => {
+          const [a, b] = glyph.points!.map((key) => this.at(key)), [r, s] = glyph.radii!.map((each) => amount(each, this.model.values) * this.scale);
           put(strands, "d", [1, -1].map((side) => strand(a, b, side * r, side * (glyph.crossed ? -s : s))).join(""));
         };
       }
@@ -230,13 +265,13 @@ export class View {
     }
   }
 
-  private stamp(glyph: Glyph, layer: SVGElement): (i: number) => void {
+  private stamp(glyph: Glyph, layer: SVGElement): () => void {
     const made = element("g", { class: `stamp ${glyph.role ?? ""}` }, layer);
     made.innerHTML = glyph.svg!;
     const { x: left, y: top, width, height } = (made as SVGGraphicsElement).getBBox();
     const corners: Vec[] = [[left, top], [left + width, top + height], [left, top + height], [left + width, top]];
-    return (i) => {
-      const along = this.way(glyph.along!, i), at = away(this.at(glyph.at!, i), along, glyph.shift ?? 0), [x, y] = at;
+    return () => {
+      const along = this.way(glyph.along!), at = away(this.at(glyph.at!), along, glyph.shift ?? 0), [x, y] = at;
       this.stroke(corners.map(([u, v]) => away(at, along, u, v)), true);
       const turn = (Math.atan2(along[1], along[0]) * 180) / Math.PI;
       put(made, "transform", `translate(${x.toFixed(2)} ${y.toFixed(2)}) rotate(${turn.toFixed(3)})`);
@@ -244,23 +279,23 @@ export class View {
   }
 
   /** Where a block's point is at displacement zero, and its travel over all positions, on the paper. */
-  private track(joint: string, at: string): (i: number) => { base: Vec; u: Vec; low: number; high: number } {
+  private track(joint: string, at: string): () => { base: Vec; u: Vec; low: number; high: number } {
     let [low, high] = [0, 0];
     this.settled.push(() => {
       const s = this.model.main.row(`s:${joint}`);
       [low, high] = [Infinity, -Infinity];
       for (const x of s) [low, high] = [Math.min(low, x), Math.max(high, x)];
     });
-    return (i) => {
-      const s = this.model.main.row(`s:${joint}`)[i], u = this.way(`d:${joint}`, i);
-      return { base: away(this.at(at, i), u, -s * this.scale), u, low: low * this.scale, high: high * this.scale };
+    return () => {
+      const s = this.row(`s:${joint}`), u = this.way(`d:${joint}`);
+      return { base: away(this.at(at), u, -s * this.scale), u, low: low * this.scale, high: high * this.scale };
     };
   }
 
-  private rail(glyph: Glyph, rail: SVGElement, hatch: SVGElement): (i: number) => void {
+  private rail(glyph: Glyph, rail: SVGElement, hatch: SVGElement): () => void {
     const track = this.track(glyph.joint!, glyph.at!);
-    return (i) => {
-      const { base, u, low, high } = track(i), side = glyph.side!;
+    return () => {
+      const { base, u, low, high } = track(), side = glyph.side!;
       const first = low + glyph.shift! - BLOCK - STUB, last = high + glyph.shift! + BLOCK + STUB;
       const y = side * (HALF_HEIGHT + 1.3), count = Math.max(2, Math.round((last - first) / 6));
       put(rail, "d", this.stroke([away(base, u, first, y), away(base, u, last, y)]));
@@ -273,23 +308,23 @@ export class View {
     };
   }
 
-  private rod(glyph: Glyph, rod: SVGElement): (i: number) => void {
+  private rod(glyph: Glyph, rod: SVGElement): () => void {
     const track = this.track(glyph.joint!, glyph.at!);
-    return (i) => {
-      const { base, u, low, high } = track(i);
+    return () => {
+      const { base, u, low, high } = track();
       const along = glyph.reach!.map((key) => {
-        const [x, y] = this.at(key, i);
+        const [x, y] = this.at(key);
         return (x - base[0]) * u[0] + (y - base[1]) * u[1];
       });
       const first = Math.min(low - BLOCK - STUB, ...along), last = Math.max(high + BLOCK + STUB, ...along);
-      const tie = this.at(glyph.tie!, i);
+      const tie = this.at(glyph.tie!);
       put(rod, "d", this.stroke([away(base, u, first), away(base, u, last)]) + (far(tie, base) > 1 ? this.stroke([tie, base]) : ""));
     };
   }
 
-  private cylinder(glyph: Glyph, rod: SVGElement, barrel: SVGElement): (i: number) => void {
-    return (i) => {
-      const u = this.way(`d:${glyph.joint}`, i), at = this.at(glyph.at!, i), from = this.at(glyph.through!, i);
+  private cylinder(glyph: Glyph, rod: SVGElement, barrel: SVGElement): () => void {
+    return () => {
+      const u = this.way(`d:${glyph.joint}`), at = this.at(glyph.at!), from = this.at(glyph.through!);
       const back = away(at, u, -glyph.piston! * this.scale), length = glyph.barrel! * this.scale;
       put(rod, "d", line([back, at]) + line([away(back, u, 0, -5), away(back, u, 0, 5)]) + line([from, away(from, u, 8)]));
       const box: Vec[] = [[8, -7.5], [length, -7.5], [length, 7.5], [8, 7.5]];
@@ -298,17 +333,17 @@ export class View {
   }
 
   /** A part with a shape of its own in the axes of a link: found when the machine changes, moved at every frame. */
-  private carried(glyph: Glyph, layer: SVGElement, styles: string[], shape: (paths: SVGElement[]) => void): (i: number) => void {
+  private carried(glyph: Glyph, layer: SVGElement, styles: string[], shape: (paths: SVGElement[]) => void): () => void {
     const body = element("g", {}, layer), paths = styles.map((style) => element("path", { class: style }, body));
     this.settled.push(() => shape(paths));
-    return (i) => {
-      const [u, v] = this.way(glyph.along!, i), [x, y] = this.at(glyph.at!, i);
+    return () => {
+      const [u, v] = this.way(glyph.along!), [x, y] = this.at(glyph.at!);
       put(body, "transform", `matrix(${u.toFixed(5)} ${v.toFixed(5)} ${(-v).toFixed(5)} ${u.toFixed(5)} ${x.toFixed(2)} ${y.toFixed(2)})`);
     };
   }
 
   /** A pitch circle with teeth, or a plain one, with a mark that shows how it turns. */
-  private wheel(glyph: Glyph, number: number, layer: SVGElement): (i: number) => void {
+  private wheel(glyph: Glyph, number: number, layer: SVGElement): () => void {
     return this.carried(glyph, layer, ["lw-support", "lw-gear", "lw-pitch"], ([rim, teeth, pitch]) => {
       const r = this.shapes.radius(glyph) * this.scale, u: Vec = [1, 0], sign = glyph.inside ? -1 : 1;
       put(pitch, "d", round([0, 0], r));
@@ -318,7 +353,7 @@ export class View {
     });
   }
 
-  private rack(glyph: Glyph, layer: SVGElement): (i: number) => void {
+  private rack(glyph: Glyph, layer: SVGElement): () => void {
     return this.carried(glyph, layer, ["lw-gear", "lw-pitch"], ([teeth, pitch]) => {
       const turn = -amount(glyph.turn!, this.model.values), u: Vec = [Math.cos(turn), Math.sin(turn)];
       const found = this.shapes.rack(glyph), side = glyph.inside ? 1 : -1, fine = (found.pitch ?? 0) * this.scale;
@@ -334,7 +369,7 @@ export class View {
   }
 
   /** The cam on its link; what touches it on the follower. */
-  private cam(glyph: Glyph, layer: SVGElement): (i: number) => void {
+  private cam(glyph: Glyph, layer: SVGElement): () => void {
     const tip = element("path", { class: { roller: "lw-ground", knife: "lw-gear", flat: "lw-bar" }[glyph.touch!] }, this.layers.tops);
     let face: Vec = [0, 0];
     const body = this.carried(glyph, layer, ["lw-support", "lw-plate", "lw-pitch"], ([wall, cam, curve]) => {
@@ -345,9 +380,9 @@ export class View {
       put(curve, "d", outline(found.pitch));
       face = [found.face[0] * this.scale, found.face[1] * this.scale];
     });
-    return (i) => {
-      body(i);
-      const at = this.at(glyph.trace!, i), [x, y] = this.shapes.line(glyph, i), u: Vec = [x, -y];
+    return () => {
+      body();
+      const at = this.at(glyph.trace!), [x, y] = this.shapes.line(glyph, this.k, this.now), u: Vec = [x, -y];
       const open = 14 * (glyph.joint ? glyph.side! : -glyph.side!);
       if (glyph.touch === "roller") put(tip, "d", round(at, amount(glyph.radius!, this.model.values) * this.scale));
       else if (glyph.touch === "flat") put(tip, "d", line([away(at, u, face[0]), away(at, u, face[1])]));
@@ -355,11 +390,10 @@ export class View {
     };
   }
 
-  private load(glyph: Glyph, shaft: SVGElement, head: SVGElement): (i: number) => void {
-    const { main } = this.model;
-    return (i) => {
-      const [fx, fy] = ["x", "y"].map((axis) => main.row(`lf:${glyph.load}.${axis}`)[i]);
-      const [px, py] = ["x", "y"].map((axis) => main.row(`lp:${glyph.load}.${axis}`)[i]);
+  private load(glyph: Glyph, shaft: SVGElement, head: SVGElement): () => void {
+    return () => {
+      const [fx, fy] = ["x", "y"].map((axis) => this.row(`lf:${glyph.load}.${axis}`));
+      const [px, py] = ["x", "y"].map((axis) => this.row(`lp:${glyph.load}.${axis}`));
       const size = Math.hypot(fx, fy), seen = size > 1e-12 && this.model.forces;
       for (const each of [shaft, head]) put(each, "visibility", seen ? "visible" : "hidden");
       if (!seen) return;
@@ -406,7 +440,7 @@ export class View {
     pen.stroke();
   }
 
-  private drawVectors(i: number): void {
+  private drawVectors(): void {
     const { data, main } = this.model, { velocities, accelerations, forces } = this.shown;
     if (!(velocities || accelerations || forces || this.vectors.size)) return;
     const seen = new Set<string>();
@@ -419,8 +453,8 @@ export class View {
       }
       if (!(largest > 0)) return;
       for (const { id, rows, at } of list) {
-        const from = this.at(at, i), long = 90 / largest;
-        const end: Vec = [from[0] + long * main.row(`${rows}.x`)[i], from[1] - long * main.row(`${rows}.y`)[i]];
+        const from = this.at(at), long = 90 / largest;
+        const end: Vec = [from[0] + long * this.row(`${rows}.x`), from[1] - long * this.row(`${rows}.y`)];
         const name = `${style}:${id}`;
         const vector = this.vectors.get(name) ?? {
           line: element("path", { class: `lw-${style}-line` }, this.layers.vectors),
