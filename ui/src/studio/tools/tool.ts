@@ -45,7 +45,10 @@ export interface Field {
   quiet?: boolean;
 }
 
-/** Strokes over the sheet, in pixels of the screen; cleared before every drawing. */
+/** Strokes over the sheet, in pixels of the screen; cleared before every drawing. A `style` is one or more words: `ghost`
+ *  (dashed, what would be made), `hand` (in hand, accent), `soft` (thin, grey), `bad`, `good`, `load`, `force`, `input`,
+ *  `velocity`; `thick` (as a bar), `dashed`, `halo` (13 px wide, pale), `fill` (pale inside), `head` (solid, no stroke); of
+ *  circles `pin` (as a joint), `ring`; of texts `name` (serif italic), `strong`, `start`, `end` (else in the middle). */
 export interface Overlay {
   path(d: string, style: string): void;
   circle(at: Vec, r: number, style: string): void;
@@ -59,6 +62,8 @@ export interface Sheet {
   readonly bench: Bench;
   readonly camera: Camera;
   readonly scene: Scene;
+  /** Where the pointer is now, or was last; null before it has been on the sheet. */
+  readonly spot: Spot | null;
   /** Carries out actions on the text as one step that can be undone; gives the names that were made, null where the text
    *  does not admit them (the sentence is shown at the cursor). */
   act(actions: Action[]): Promise<string[] | null>;
@@ -84,7 +89,11 @@ export interface Tool {
   anchor?(): Vec | null;
   /** The values in hand, the first one takes digits at once; none: no panel. */
   fields?(): Field[];
-  /** A typed value, "" to let it follow the pointer again; a sentence where it cannot be read. */
+  /** From where lengths and directions run: the pointer snaps to horizontal, vertical, steps of 15° and equal lengths. */
+  anchor?(): Vec | null;
+  /** Points in hand, to which the pointer does not snap. */
+  avoid?(): string[];
+  /** A typed value as a file has it ("140 mm", "30 deg"), "" to let it follow the pointer again; a sentence where it is refused. */
   type?(key: string, text: string): string | null;
   /** Whether it can do something with an element: only those light up. */
   takes?(item: Item): boolean;
