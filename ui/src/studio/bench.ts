@@ -1,5 +1,5 @@
 // The workbench: what is selected, in hand and shown, beside the document (Desk) and the machine that it makes (Session).
-import { computed, signal } from "@preact/signals";
+import { computed, effect, signal } from "@preact/signals";
 import type { Desk } from "../desk";
 import type { Session } from "../session";
 import type { Vec } from "../shapes";
@@ -63,7 +63,25 @@ export class Bench {
   /** The machine of the present text; null where the text makes none. */
   readonly session = computed<Session | null>(() => (this.desk.solved.value.model ? this.desk.session.value : null));
 
-  constructor(readonly desk: Desk) {}
+  /** Addresses of numbers that stay while joints are dragged ("crank.length"), whether there is a machine or not. */
+  readonly locked = signal<ReadonlySet<string>>(new Set());
+  /** The dimension in hand, with the range of its slider (SI). */
+  readonly inHand = signal<{ address: string; low: number; high: number } | null>(null);
+  /** Brings elements into the picture; the sheet sets it. */
+  reveal: (items: Item[]) => void = () => {};
+
+  constructor(readonly desk: Desk) {
+    effect(() => {
+      const session = this.session.value, { value } = this.locked;
+      if (session) session.model.locked = new Set([...value].filter((address) => address in session.model.values));
+    });
+  }
+
+  lock(addresses: string[], on: boolean): void {
+    const locked = new Set(this.locked.value);
+    for (const each of addresses) locked[on ? "add" : "delete"](each);
+    this.locked.value = locked;
+  }
 
   get page() {
     return this.desk.page;
