@@ -38,8 +38,10 @@ def test_a_machine_given_by_lengths_is_drawn_where_it_stands_and_drawn_on(tmp_pa
             {"do": "link", "name": "slider1", "points": ["C"]},
             {"do": "guide", "link": "slider1", "at": "C", "angle": 0},
         )
-        for action in more:
-            text = asked(studio, "edit", {"text": text, "action": action})[1]["text"]
+        answer = asked(studio, "edit", {"text": text, "actions": more})[1]
+        text = answer["text"]
+        assert answer["made"] == ["C", "bar1", "slider1", "G1", "guide1"]
+        assert answer["picture"]["points"]["C"] == pytest.approx([b[0] + 1.0, b[1]], abs=1e-4)
         grown = lw.loads(text)
         assert lw.structure(grown).mobility == 1
         assert grown.dimension("bar1.C.x") == pytest.approx(1.0, abs=2e-4)
@@ -158,7 +160,7 @@ def test_a_new_file_and_the_notes_are_in_the_language_of_the_page(tmp_path: Path
         assert new[0] != new[1] and not new[1].isascii()
         action = {"do": "remove", "what": "joint", "name": "O1"}
         notes = [
-            asked(studio, "edit", {"text": FOURBAR, "action": action, "language": each})[1]["note"]
+            asked(studio, "edit", {"text": FOURBAR, "actions": [action], "language": each})[1]["notes"][0]
             for each in ("en", "zh")
         ]
         assert all("O1" in note and "P1" in note for note in notes)

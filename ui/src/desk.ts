@@ -40,6 +40,14 @@ const PAUSE = 700;
 /** Characters of a text that the server takes. */
 const LARGEST = 1_000_000;
 
+/** A text after actions of drawing: what to know about them, names of what is new, what can be drawn. */
+interface Edited {
+  text: string;
+  notes: string[];
+  made: string[];
+  picture: Picture;
+}
+
 /** A linkage for a curve: its file, how far off it is (m), its curve. */
 export interface Candidate {
   text: string;
@@ -380,34 +388,37 @@ export class Desk {
     save(new Blob([bytes(found.content)]), `${stem}${ending}`);
   }
 
-  /** Carries out actions of drawing on the text, as one step, in the order in which they were asked. */
-  act = (actions: Action[]): Promise<void> => {
+  /** Carries out actions of drawing on the text, as one step, in the order in which they were asked; gives the names of
+   *  what is new, null where the text does not admit them. */
+  act = (actions: Action[]): Promise<string[] | null> => {
     const { ready } = this;
     this.pending++;
-    return (this.queue = this.queue.then(async () => {
+    const acted = this.queue.then(async () => {
       await ready;
-      const done = await this.carriedOut(actions).finally(() => this.pending--);
-      const { picture } = this.solved.value;
-      if (!done && picture) this.solved.value = { ...this.solved.value, picture: { ...picture } };
-    }));
+      const edited = await this.carriedOut(actions).finally(() => this.pending--), { picture } = this.solved.value;
+      if (edited) this.draw(edited);
+      else if (picture) this.solved.value = { ...this.solved.value, picture: { ...picture } };
+      return edited && edited.made;
+    });
+    this.queue = acted.then(() => undefined);
+    return acted;
   };
 
-  /** Whether the text admits the actions. */
-  private async carriedOut(actions: Action[]): Promise<boolean> {
+  private async carriedOut(actions: Action[]): Promise<Edited | null> {
     for (;;) {
-      const from = this.text.value, notes: string[] = [];
-      let text = from;
-      for (const action of actions) {
-        const edited = await this.ask<{ text: string; note: string }>("edit", { text, action });
-        if (!edited) return false;
-        ({ text } = edited);
-        notes.push(edited.note);
-      }
+      const from = this.text.value, edited = await this.ask<Edited>("edit", { text: from, actions });
+      if (!edited) return null;
       if (from !== this.text.value) continue;
-      this.change(text);
-      this.page.note.value = notes.filter(Boolean).join(" ");
-      return true;
+      this.change(edited.text);
+      this.page.note.value = edited.notes.join(" ");
+      return edited;
     }
+  }
+
+  /** Shows what is drawn now, before it is solved. */
+  private draw({ picture }: Edited): void {
+    if (this.solved.value.picture) hold(picture, this.solved.value.picture);
+    this.solved.value = { ...this.solved.value, picture };
   }
 
   /** Shows the machine in motion; where the text makes none, says why. */

@@ -1,23 +1,19 @@
-"""A text that need not be a model yet: entries put in and taken out, and what of it can be drawn."""
+"""A text that need not be a model yet: entries put in and taken out."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Mapping
-from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any
 
 from linkwright.core.data import Plain
-from linkwright.core.expressions import amount
-from linkwright.errors import LinkwrightError, QuantityError
+from linkwright.errors import LinkwrightError
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Node, Scalar, Sequence
+from linkwright.fields.nodes import Node
 from linkwright.files.compose import compose
 from linkwright.files.write import Document, content_end, flow, scalar
+from linkwright.server.entries import fresh
+from linkwright.server.picture import picture_of
 from linkwright.words import _
-
-if TYPE_CHECKING:
-    from linkwright.kinematics.motion import Motion
 
 
 class Draft(Document):
@@ -28,17 +24,26 @@ class Draft(Document):
 
     def __init__(self, text: str, places: Mapping[str, list[float]] | None = None) -> None:
         self.name, self.text = "model", text.removeprefix("\ufeff")
-        self._places = dict(places or {})
+        self.places = dict(places or {})
+        #: Names of new elements, in the order in which they were made.
+        self.made: list[str] = []
+        self._tree_of: tuple[str, Node | None] = "", None
+
+    def picture(self) -> Plain:
+        """What can be drawn by the text alone."""
+        return picture_of(self.root)
 
     def shown(self) -> Plain:
         """What can be drawn, with the points that no drawing gives."""
-        found = picture(self.text)
-        return {**found, "points": {**self._places, **found["points"]}}
+        found = self.picture()
+        return {**found, "points": {**self.places, **found["points"]}}
 
     @property
     def root(self) -> MappingNode:
         """The tree; raises LinkwrightError for a text that has none."""
-        root, _unused = compose(self.text)
+        if self._tree_of[0] != self.text:
+            self._tree_of = self.text, compose(self.text)[0]
+        root = self._tree_of[1]
         if root is None:
             return MappingNode(0, 0, 0, 0)
         if not isinstance(root, MappingNode):
@@ -79,9 +84,12 @@ class Draft(Document):
         else:
             self.write_key(found, key, flow(value))
 
-    def put_new(self, section: str, stem: str, value: Any) -> None:
-        """Write an entry of a section under the first of stem1, stem2, … that is free."""
-        self.put(section, fresh(stem, [key for key, _unused in self.section(section) or ()]), value)
+    def put_new(self, section: str, stem: str, value: Any) -> str:
+        """Write an entry of a section under the first of stem1, stem2, … that is free, which it gives."""
+        name = fresh(stem, [key for key, _unused in self.section(section) or ()])
+        self.put(section, name, value)
+        self.made.append(name)
+        return name
 
     def write_key(self, node: MappingNode, key: str, text: str) -> None:
         """Writes a text as what a key of a mapping has."""
@@ -159,110 +167,8 @@ class Draft(Document):
 
 
 def picture(text: str) -> Plain:
-    """What of a text can be drawn before it is a model: points (m), links with their points, fixed points, driver,
-    loads with the points or links that they act on and the direction of a force (rad)."""
-    draft = Draft(text)
-    frame = draft.section("frame")
-    fixed = _places(frame.get("points") if frame is not None else None)
-    links = {}
-    for name, link in draft.section("links") or ():
-        points = link.get("points") if isinstance(link, MappingNode) else None
-        names = [name for name, _unused in points] if isinstance(points, MappingNode) else texts(points)
-        also = link.get("also") if isinstance(link, MappingNode) else None
-        links[name] = [*names, *(point for point, _unused in also)] if isinstance(also, MappingNode) else names
-    driver = draft.section("driver")
-    turned = driver.get("turn") if driver is not None else None
-    loads = [(name, load) for name, load in draft.section("loads") or () if isinstance(load, MappingNode)]
-    return {
-        "points": {**_places(draft.root.get("drawing")), **fixed},
-        "fixed": list(fixed),
-        "links": links,
-        "driver": turned.text if isinstance(turned, Scalar) else None,
-        "guided": [
-            each.text
-            for _unused, joint in draft.section("joints") or ()
-            if isinstance(joint, MappingNode)
-            and joint.get("block") is not None
-            and isinstance(each := joint.get("at"), Scalar)
-        ],
-        "loads": {name: _load(load) for name, load in loads},
-    }
-
-
-def _load(load: MappingNode) -> Plain:
-    """A load as it is drawn: its words, the link and point that it acts on, its direction in space (rad)."""
-    angle, components = None, texts(load.get("components"))
-    with suppress(QuantityError, ValueError):
-        x, y = (amount(each, "force") for each in components) if components else (0.0, 0.0)
-        angle = math.atan2(y, x) if components else amount(word(load, "direction"), "angle")
-    ends = texts(load.get("between")) or texts(load.get("links"))
-    size = " ".join(filter(None, (word(load, key) for key in ("magnitude", "stiffness", "damping")))) or components
-    return {
-        "kind": word(load, "kind"),
-        "on": word(load, "on"),
-        "at": word(load, "at"),
-        "angle": angle,
-        "ends": [end.split(".")[-1] for end in ends],
-        "size": size if isinstance(size, str) else ", ".join(size),
-    }
-
-
-def completed(shown: Plain, motion: Motion) -> Plain:
-    """What can be drawn, with the points that no drawing gives where the solved machine has them (``placed``)."""
-    missing = {point for points in shown["links"].values() for point in points} - set(shown["points"])
-    if not missing:
-        return shown
-    places, there = {}, _as_drawn(motion)
-    for point in sorted(missing):
-        keys = [f"{link}.{point}" for link, points in shown["links"].items() if point in points]
-        known = next((key for key in (point, *keys) if key in there.point_names()), None)
-        if known is not None:
-            places[point] = [float(each) for each in there.point(known).position[0]]
-    return {**shown, "points": {**shown["points"], **places}, "placed": list(places)}
-
-
-def _as_drawn(motion: Motion) -> Motion:
-    """The machine in the position of its drawing, where that can be had; else from its first position on."""
-    from linkwright.kinematics.solve import solve_motion
-    from linkwright.mechanism.drawing import Drawing
-
-    drawing = Drawing(motion.mechanism)
-    names = motion.mechanism.drivers
-    at = {name: q for name in names if (q := drawing.driver(name)) is not None}
-    if at and len(at) == len(names):
-        with suppress(LinkwrightError):
-            return solve_motion(motion.mechanism, at=at)
-    return motion
-
-
-def word(entry: MappingNode, key: str) -> str:
-    """The text of a key; "" where there is none."""
-    node = entry.get(key)
-    return node.text if isinstance(node, Scalar) else ""
-
-
-def fresh(stem: str, known: Iterable[str]) -> str:
-    """The first of stem1, stem2, … that is not known."""
-    place, taken = 1, set(known)
-    while f"{stem}{place}" in taken:
-        place += 1
-    return f"{stem}{place}"
-
-
-def texts(node: Node | None) -> list[str]:
-    """The scalars of a list."""
-    items = node.items if isinstance(node, Sequence) else []
-    return [each.text for each in items if isinstance(each, Scalar)]
-
-
-def _places(node: Node | None) -> dict[str, list[float]]:
-    found = {}
-    for name, place in node if isinstance(node, MappingNode) else ():
-        try:
-            found[name] = [amount(text, "length") for text in texts(place)]
-        except QuantityError:
-            continue
-    return {name: place for name, place in found.items() if len(place) == 2}
+    """What of a text can be drawn before it is a model."""
+    return Draft(text).picture()
 
 
 def _block(entries: Mapping[str, Any], indent: str) -> list[str]:

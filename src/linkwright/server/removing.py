@@ -12,7 +12,8 @@ from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.files.write import flow
 from linkwright.joints.base import JOINTS
 from linkwright.server import request
-from linkwright.server.draft import Draft, fresh, picture, texts, word
+from linkwright.server.draft import Draft
+from linkwright.server.entries import fresh, texts, word
 from linkwright.words import _
 
 #: Keys of joints and loads whose words are no links.
@@ -44,7 +45,7 @@ def _link(draft: Draft, name: str) -> str:
 
 def _joint(draft: Draft, point: str) -> str:
     """A pin: its links come apart. A block goes with its guide, a point that joins nothing out of its link."""
-    shown = picture(draft.text)
+    shown = draft.picture()
     links = [name for name, points in shown["links"].items() if point in points]
     block = next((name for name in links if len(shown["links"][name]) == 1), None)
     if block is not None:
@@ -138,7 +139,7 @@ def _take_off(draft: Draft, point: str, link: str) -> None:
 
 def _renamed(draft: Draft, link: str, point: str) -> str:
     """Gives a link's point a name of its own wherever it is named."""
-    shown = picture(draft.text)
+    shown = draft.picture()
     new = fresh(
         "P", {*shown["points"], *shown["fixed"], *(each for ends in shown["links"].values() for each in ends)}
     )
@@ -199,7 +200,7 @@ def _remove_what_names(draft: Draft, gone: set[str]) -> None:
     driver = draft.root.get("driver")
     if driver is not None and gone & set(_named(driver)):
         draft.cut_top("driver")
-    shown = picture(draft.text)
+    shown = draft.picture()
     ends = [*shown["fixed"], *(point for points in shown["links"].values() for point in points)]
     names = {"frame", *shown["links"]}
     joints = [key for key, node in draft.section("joints") or () if names & set(_named(node))]
@@ -214,7 +215,7 @@ def _remove_what_names(draft: Draft, gone: set[str]) -> None:
 
 def _remove_unused(draft: Draft) -> None:
     """Drawn points that no link has."""
-    used = {point for points in picture(draft.text)["links"].values() for point in points}
+    used = {point for points in draft.picture()["links"].values() for point in points}
     for point, _unused in list(draft.section("drawing") or ()):
         if point not in used:
             draft.take_out("drawing", point)

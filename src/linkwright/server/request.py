@@ -79,6 +79,14 @@ def mapping(asked: Mapping[str, Any], key: str) -> dict[str, Any]:
     return value if isinstance(value, dict) else refuse(key, "mapping")
 
 
+def mappings(asked: Mapping[str, Any], key: str) -> list[dict[str, Any]]:
+    """A list of mappings."""
+    value = asked.get(key)
+    if not isinstance(value, list) or not all(isinstance(each, dict) for each in value):
+        refuse(key, "mappings")
+    return value
+
+
 _FORMS = {
     "text": pgettext("studio", "a text"),
     "name": _("a name on one line"),
@@ -86,6 +94,7 @@ _FORMS = {
     "number": _("a finite number of ordinary size"),
     "place": _("two finite coordinates"),
     "mapping": _("a mapping"),
+    "mappings": _("a list of mappings"),
 }
 
 

@@ -17,10 +17,12 @@ from linkwright.files.model_file import gallery_names, read_text
 from linkwright.files.source import read_source
 from linkwright.files.write import Document
 from linkwright.server.background import Background
-from linkwright.server.draft import completed, picture
+from linkwright.server.draft import picture
 from linkwright.server.edits import edited
 from linkwright.server.files import Files
-from linkwright.server.request import mapping, number, numbers, text
+from linkwright.server.outline import outline
+from linkwright.server.picture import completed
+from linkwright.server.request import mapping, mappings, number, numbers, text
 from linkwright.words import LANGUAGES, _
 from linkwright.words.message import in_language
 
@@ -74,9 +76,10 @@ class Work:
         return {**self.files.open(self.files.fresh("machine", window)), "text": new}
 
     def _edit(self, asked: Plain) -> Plain:
-        """The text after an action of drawing, and what the user should know about it."""
-        changed, note = edited(text(asked, "text"), mapping(asked, "action"))
-        return {"text": changed, "note": in_language(note, language_of(asked))}
+        """The text after actions of drawing, one step: what the user should know, new names, what can be drawn."""
+        actions = [mapping(asked, "action")] if "action" in asked else mappings(asked, "actions")
+        done = edited(text(asked, "text"), actions)
+        return {**done._asdict(), "notes": [in_language(each, language_of(asked)) for each in done.notes]}
 
     def _read(self, asked: Plain) -> str:
         """The text of a file, or of one of the gallery."""
@@ -176,6 +179,7 @@ def solved(text: str, language: str, folder: str = "") -> Plain:
         "model": None,
         "sentence": "",
         "optimize": {},
+        "outline": outline(text),
     }
     try:
         found["picture"] = picture(text)

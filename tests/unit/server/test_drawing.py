@@ -28,12 +28,12 @@ REMOVED = ("chain_drive", "dyad_rpr", "geneva_wheel", "pinion_between_racks", "t
 
 def after(text: str, **action: Any) -> str:
     """The text after an action."""
-    return edited(text, action)[0]
+    return edited(text, [action]).text
 
 
 def told(text: str, **action: Any) -> tuple[str, dict[str, Any]]:
     """What the user is told about an action: the key of the sentence and its values."""
-    note = edited(text, action)[1]
+    note = edited(text, [action]).notes[0]
     return code_of(note), values_of(note)
 
 
@@ -101,7 +101,7 @@ def test_a_mass_brings_the_inertia_of_an_even_bar() -> None:
     lengths = FOURBAR.replace("coupler: {points: [A, B]", "coupler: {points: [A, B], length: 3.5 m")
     lengths = lengths.replace("drawing:", "# drawing:")
     placed = {"A": [0.0, 0.0], "B": [3.5, 0.0]}
-    heavy = edited(lengths, {"do": "mass", "link": "coupler", "mass": "12 kg", "places": placed})[0]
+    heavy = after(lengths, do="mass", link="coupler", mass="12 kg", places=placed)
     assert "coupler: {points: [A, B], length: 3.5 m, mass: 12 kg, inertia: 12.25 kg·m²}" in heavy
 
 

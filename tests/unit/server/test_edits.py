@@ -23,7 +23,7 @@ NEW = new_text()
 
 def edited(text: str, action: dict[str, Any]) -> str:
     """The text after an action of drawing."""
-    return edits.edited(text, action)[0]
+    return edits.edited(text, [action]).text
 
 
 DRAWN: tuple[dict[str, Any], ...] = (
