@@ -7,6 +7,8 @@ import type { Session } from "./session";
 import { digits, quantity, Words } from "./words";
 
 const CYCLE_SECONDS = [2, 6];
+/** The end of a cycle that is played once. */
+const LAST = 1 - 1e-6;
 
 export class Page {
   readonly words: Words;
@@ -14,6 +16,9 @@ export class Page {
   readonly phase = signal(0);
   readonly playing = signal(false);
   readonly pace = signal(1);
+  readonly loop = signal(true);
+  /** Whether a cycle is played in its own time, not in one that is pleasant to look at. */
+  paced = false;
   readonly note = signal("");
   /** Sections that have been opened or closed by hand. */
   readonly folds: Record<string, boolean> = {};
@@ -49,6 +54,7 @@ export class Page {
   }
 
   play(on: boolean): void {
+    if (on && this.phase.value >= LAST) this.phase.value = 0;
     this.playing.value = on;
     if (on) requestAnimationFrame((now) => {
       this.last = now;
@@ -59,14 +65,16 @@ export class Page {
   private seconds(): number {
     const { period, count, steady } = this.sessions[0].data.positions;
     const own = period ?? (steady ? Math.abs((count * steady.step) / steady.speed) : CYCLE_SECONDS[1]);
-    return Math.min(CYCLE_SECONDS[1], Math.max(CYCLE_SECONDS[0], own));
+    return this.paced ? own : Math.min(CYCLE_SECONDS[1], Math.max(CYCLE_SECONDS[0], own));
   }
 
   private tick(now: number): void {
     if (!this.playing.value) return;
-    if (this.sessions.length) this.phase.value = (this.phase.value + ((now - this.last) / 1000 / this.seconds()) * this.pace.value) % 1;
+    const next = this.phase.value + (this.sessions.length ? ((now - this.last) / 1000 / this.seconds()) * this.pace.value : 0);
+    this.phase.value = this.loop.value || next < 1 ? next % 1 : LAST;
     this.last = now;
-    requestAnimationFrame((next) => this.tick(next));
+    if (next >= 1 && !this.loop.value) return void (this.playing.value = false);
+    requestAnimationFrame((later) => this.tick(later));
   }
 
   /** Runs work in the next frame; what comes before the frame replaces it. */

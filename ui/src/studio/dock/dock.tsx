@@ -1,10 +1,56 @@
-// The dock below the sheet: time line, curves, sweep, synthesis, optimisation, comparison.
-import { type Bench, DOCKS } from "../bench";
+// The dock below the sheet: the time line, and curves, sweep, synthesis, optimisation and comparison behind tabs.
+import { useEffect } from "preact/hooks";
+import type { Session } from "../../session";
+import { type Bench, type DockName, DOCKS } from "../bench";
+import { beginning, TimeLine } from "./transport";
 
 export function Dock({ bench }: { bench: Bench }) {
+  const open = bench.dock.value, session = bench.session.value;
+  useEffect(() => {
+    if (!session || session.data.positions.count < 2 || opened === bench.desk.name.value) return;
+    opened = bench.desk.name.value;
+    begin(bench, session);
+  }, [session, bench.desk.name.value]);
   return (
-    <section class="dock">
-      <div role="tablist">{DOCKS.map((each) => <button key={each} role="tab" aria-selected={each === bench.dock.value} onClick={() => (bench.dock.value = bench.dock.value === each ? null : each)}>{each}</button>)}</div>
+    <section class={open ? "dock open" : "dock"} aria-label={bench.say("dock")}>
+      <TimeLine bench={bench} />
+      <Tabs bench={bench} />
+      {open && <div class="dock-panel" role="tabpanel" id="dock-panel" aria-labelledby={`dock-tab-${open}`} />}
     </section>
+  );
+}
+
+/** The file for which it was set to its beginning. */
+let opened = "";
+
+/** The first machine of a file: shown where it is drawn, at a speed that can be looked at, with its curves. */
+function begin({ page, dock }: Bench, session: Session): void {
+  const { count, closed } = session.data.positions;
+  [page.paced, page.pace.value] = [true, beginning(session)];
+  page.phase.value = Math.max(0, session.data.drawing.at) / (closed ? count : count - 1);
+  if (session.data.signals.length) dock.value ??= "curves";
+}
+
+function Tabs({ bench }: { bench: Bench }) {
+  const open = bench.dock.value;
+  const choose = (name: DockName) => (bench.dock.value = open === name ? null : name);
+  const key = (event: KeyboardEvent) => {
+    const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    const all = [...(event.currentTarget as HTMLElement).querySelectorAll("button")], here = all.indexOf(document.activeElement as HTMLButtonElement);
+    all.at((here + step) % all.length)?.focus();
+  };
+  return (
+    <div class="dock-head">
+      <div class="dock-tabs" role="tablist" aria-label={bench.say("dock")} onKeyDown={key}>
+        {DOCKS.map((each, k) => (
+          <button
+            key={each} id={`dock-tab-${each}`} role="tab" aria-selected={each === open} aria-controls={each === open ? "dock-panel" : undefined}
+            tabIndex={each === open || (!open && k === 0) ? 0 : -1} onClick={() => choose(each)}
+          >{bench.say(`dock.${each}`)}</button>
+        ))}
+      </div>
+    </div>
   );
 }

@@ -1,0 +1,230 @@
+// The time line: play from the drawn position, the input's value, a track to scrub, how the input goes, how fast.
+import { effect } from "@preact/signals";
+import type { ComponentChildren } from "preact";
+import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
+import type { Session } from "../../session";
+import { put } from "../../strokes";
+import { digits, quantity } from "../../words";
+import type { Bench } from "../bench";
+import { Icon } from "./icons";
+import { course, limits, outside, pace, phaseOf, phases, type Stretch, ticks, ticksOf, typed } from "./timeline";
+
+const SPEEDS = [0.01, 0.05, 0.1, 0.25, 0.5, 1, 2];
+// Seconds of a cycle that the eye can follow: the speed that a machine begins with; rest before solving is shown, ms.
+const LOOKED = 1.2, PATIENCE = 300, HALF = Math.PI, DEGREE = Math.PI / 180;
+const KEYS: Record<string, number> = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -10, PageUp: 10 };
+
+const neat = (x: number) => (Math.abs(x) < 5e-10 ? 0 : x);
+const angle = (x: number) => `${neat(x / DEGREE).toFixed(1).replace("-", "−")}°`;
+
+/** A coordinate of the input as it is read. */
+const shown = (x: number, turns: boolean, size: number) => (turns ? angle(x) : quantity(neat(x), "length", size));
+const tick = (x: number, turns: boolean, size: number) => (turns ? `${digits(neat(x / DEGREE), 4)}°` : quantity(neat(x), "length", size, 3));
+
+export function TimeLine({ bench }: { bench: Bench }) {
+  const session = bench.session.value, gap = bench.gap.value, moves = session && session.data.positions.count > 1;
+  return (
+    <div class={moves || gap ? "timeline" : "timeline idle"}>
+      {moves ? <Transport key={session} bench={bench} session={session} /> : gap ? <Stuck bench={bench} /> : <Idle bench={bench} session={session} />}
+      <Busy bench={bench} />
+    </div>
+  );
+}
+
+/** A thin bar while the text is being solved for longer than a moment. */
+function Busy({ bench }: { bench: Bench }) {
+  const { desk } = bench, [busy, setBusy] = useState(false), waits = desk.solved.value.text !== undefined && desk.solved.value.text !== desk.text.value && !desk.gone.value;
+  useEffect(() => {
+    if (!waits) return setBusy(false);
+    const timer = setTimeout(() => setBusy(true), PATIENCE);
+    return () => clearTimeout(timer);
+  }, [waits]);
+  return busy ? <div class="busy-bar" role="progressbar" aria-label={bench.say("dock.solving")} /> : null;
+}
+
+/** What is missing until the machine moves. */
+function Idle({ bench, session }: { bench: Bench; session: Session | null }) {
+  const { desk } = bench, { picture, outline, sentence, findings } = desk.solved.value;
+  const driven = picture?.driver || outline?.entries.driver || outline?.entries.drivers;
+  const [before, after] = bench.say("dock.undriven", { tool: "\n" }).split("\n");
+  const wrong = findings.find(({ severity }) => severity === "error")?.sentence ?? sentence;
+  return (
+    <>
+      <button class="play" disabled aria-label={bench.page.say("play")}><Icon name="play" /></button>
+      {session ? <span>{bench.page.say("static")}</span> : driven ? <span class="why">{wrong}</span> : (
+        <span class="undriven">
+          {before}
+          <button class="word" onClick={() => (bench.tool.value = "drive")}><Icon name="drive" /><b>{bench.say("dock.drive")}</b><kbd>D</kbd></button>
+          {after}
+        </span>
+      )}
+    </>
+  );
+}
+
+function rocks(bench: Bench): boolean {
+  const { outline } = bench.desk.solved.value, cycle = outline?.entries.cycle;
+  return cycle === undefined ? /^cycle: *["']?rock\b/m.test(bench.desk.text.value) : cycle === "rock";
+}
+
+/** Whether the input turns through or rocks between its limits. */
+function Cycle({ bench }: { bench: Bench }) {
+  const rock = rocks(bench);
+  const choose = (wanted: boolean) => {
+    if (wanted !== rock) void bench.desk.act([wanted ? { do: "set", path: ["cycle"], value: "rock" } : { do: "unset", path: ["cycle"] }]);
+  };
+  return (
+    <div class="segment" role="group" aria-label={bench.say("dock.cycle")}>
+      <button aria-pressed={!rock} title={bench.say("dock.turn_help")} onClick={() => choose(false)}><Icon name="turn" size={16} />{bench.say("dock.turn")}</button>
+      <button aria-pressed={rock} title={bench.say("dock.rock_help")} onClick={() => choose(true)}><Icon name="rock" size={16} />{bench.say("dock.rock")}</button>
+    </div>
+  );
+}
+
+function Speed({ bench, session }: { bench: Bench; session: Session }) {
+  const { page } = bench, { rpm, seconds } = pace(session.data);
+  const own = rpm !== null ? `${digits(rpm, 4)} rpm` : seconds !== null ? bench.say("dock.cycle_of", { time: quantity(seconds, "time", 1, 3) }) : "";
+  const said = (each: number) => (own ? bench.say("dock.speed_of", { speed: `${each}×`, own }) : `${each}×`);
+  return (
+    <>
+      <button class="square" aria-pressed={page.loop.value} aria-label={bench.say("dock.loop")} title={bench.say("dock.loop")} onClick={() => (page.loop.value = !page.loop.value)}><Icon name="loop" /></button>
+      <label class="speed">
+        <select aria-label={page.say("speed")} value={page.pace.value} onChange={(event) => (page.pace.value = Number(event.currentTarget.value))}>
+          {SPEEDS.map((each) => <option key={each} value={each}>{said(each)}</option>)}
+        </select>
+        <Icon name="down" size={14} />
+      </label>
+    </>
+  );
+}
+
+/** The speed at which a machine begins: its own one, or slower so that the eye can follow. */
+export function beginning(session: Session): number {
+  const { seconds } = pace(session.data);
+  return seconds === null ? 1 : (SPEEDS.findLast((each) => each <= 1 && seconds / each >= LOOKED) ?? SPEEDS[0]);
+}
+
+const at = (share: number) => ({ left: `${(100 * share).toFixed(3)}%` });
+const over = ({ from, to }: Stretch) => ({ left: `${(100 * from).toFixed(3)}%`, width: `${(100 * (to - from)).toFixed(3)}%` });
+
+/** The track with what stands on it; `children`: what moves. */
+function Track({ labels, pieces, marks, children, ...rest }: {
+  labels: { share: number; text: string }[];
+  pieces: (Stretch & { style: string; name?: string })[];
+  marks: { share: number; text: string }[];
+  children?: ComponentChildren;
+  [name: string]: unknown;
+}) {
+  return (
+    <div class="scrub" {...rest}>
+      <div class="track">{pieces.map((each, k) => <div key={k} class={each.style} style={over(each)} />)}</div>
+      {pieces.map((each, k) => each.name && each.to - each.from > 0.06 && <u key={k} class="zone" style={at((each.from + each.to) / 2)}>{each.name}</u>)}
+      {marks.map(({ share, text }, k) => <i key={k} class="limit" style={at(share)}><u>{text}</u></i>)}
+      <div class="ticks">{labels.map(({ share, text }, k) => <i key={k} style={at(share)}>{text}</i>)}</div>
+      {children}
+    </div>
+  );
+}
+
+function Transport({ bench, session }: { bench: Bench; session: Session }) {
+  const { page } = bench, { model, data } = session, turns = data.positions.inputs[0]?.turns ?? true;
+  void [session.calm.value, page.language.value];
+  const [values] = useState(() => course(session)), size = Math.max(...values.map(Math.abs)) || 1;
+  const thumb = useRef<HTMLDivElement>(null), field = useRef<HTMLInputElement>(null), name = data.positions.inputs[0]?.name ?? "";
+  useLayoutEffect(() => effect(() => {
+    const i = page.index(session), share = page.phase.value, text = shown(model.solver.inputs[i], turns, size);
+    thumb.current!.style.left = `${(100 * share).toFixed(3)}%`;
+    const slider = thumb.current!.parentElement!;
+    put(slider, "aria-valuenow", share.toFixed(4));
+    put(slider, "aria-valuetext", text);
+    if (field.current !== document.activeElement && field.current!.value !== text) field.current!.value = text;
+  }), []);
+  const go = (share: number) => {
+    page.play(false);
+    page.phase.value = Math.min(data.positions.closed ? 1 - 1e-6 : 1, Math.max(0, share));
+  };
+  const drag = (event: PointerEvent) => {
+    if (event.buttons !== 1) return;
+    const host = event.currentTarget as HTMLElement, box = host.getBoundingClientRect();
+    if (event.type === "pointerdown") {
+      host.setPointerCapture(event.pointerId);
+      host.focus();
+    }
+    go((event.clientX - box.left) / box.width);
+  };
+  const key = (event: KeyboardEvent) => {
+    const step = KEYS[event.key], count = data.positions.closed ? data.positions.count : data.positions.count - 1;
+    const to = step ? (page.index(session) + step * (event.shiftKey ? 10 : 1)) / count : event.key === "Home" ? 0 : event.key === "End" ? 1 : null;
+    if (to === null) return;
+    event.preventDefault();
+    event.stopPropagation();
+    go(data.positions.closed && step ? to - Math.floor(to) : to);
+  };
+  const type = () => {
+    const value = typed(field.current!.value, turns), phase = value === null ? null : phaseOf(values, value, turns, page.phase.value);
+    if (phase === null) {
+      page.note.value = bench.say(value === null ? "dock.no_input" : "dock.not_reached", { text: field.current!.value });
+      field.current!.value = shown(model.solver.inputs[page.index(session)], turns, size);
+    } else go(phase);
+  };
+  const acts = phases(session).flatMap(({ load, stretches }) => stretches.map((each) => ({ ...each, style: "acts", name: bench.say("dock.acts", { name: load }) })));
+  const ends = limits(session).map(({ share, name: output, max }) => ({ share, text: bench.say(max ? "dock.max" : "dock.min", { name: output }) }));
+  const playing = page.playing.value;
+  return (
+    <>
+      <button class="play" aria-label={page.say(playing ? "pause" : "play")} title={page.say(playing ? "pause" : "play")} onClick={() => page.play(!playing)}><Icon name={playing ? "pause" : "play"} /></button>
+      <input
+        ref={field} class="at" spellcheck={false} autocomplete="off" aria-label={bench.say("dock.input", { name })} title={bench.say("dock.input", { name })}
+        onFocus={(event) => { page.play(false); event.currentTarget.select(); }} onChange={type}
+        onKeyDown={(event) => {
+          if (event.key === "Enter") event.currentTarget.blur();
+          if (event.key === "Escape") {
+            event.currentTarget.value = shown(model.solver.inputs[page.index(session)], turns, size);
+            event.currentTarget.blur();
+          }
+          event.stopPropagation();
+        }}
+      />
+      <Track
+        role="slider" tabIndex={0} aria-label={page.say("position")} aria-valuemin={0} aria-valuemax={1} aria-valuenow={0}
+        onPointerDown={drag} onPointerMove={drag} onKeyDown={key}
+        labels={ticksOf(values, turns).map(({ share, value }) => ({ share, text: tick(value, turns, size) }))} pieces={acts} marks={ends}
+      >
+        <div class="thumb" ref={thumb} />
+      </Track>
+      <Cycle bench={bench} />
+      <Speed bench={bench} session={session} />
+    </>
+  );
+}
+
+/** The time line of a machine that cannot be assembled all the way: where it can be, and a way to move it there. */
+function Stuck({ bench }: { bench: Bench }) {
+  const { desk, page } = bench, gap = bench.gap.value!, turns = gap.unit === "deg", factor = turns ? DEGREE : 1e-3;
+  const possible = gap.possible.map(([a, b]): [number, number] => [a * factor, b * factor]), ends = possible.flat();
+  const wide = ends.length ? Math.max(...ends) - Math.min(...ends) : 0, middle = ends.length ? (Math.max(...ends) + Math.min(...ends)) / 2 : 0;
+  const [low, high] = turns ? (ends.some((x) => Math.abs(x) > HALF) ? [0, 2 * HALF] : [-HALF, HALF]) : [middle - (wide || 0.1), middle + (wide || 0.1)];
+  const size = Math.max(Math.abs(low), Math.abs(high)), here = typed(gap.input, turns), share = (x: number) => (x - low) / (high - low);
+  const lap = (x: number) => (turns ? x - 2 * HALF * Math.floor((x - low) / (2 * HALF)) : x);
+  const able = possible.map(([a, b]) => ({ from: Math.max(0, share(a)), to: Math.min(1, share(b)), style: "able", name: bench.say("dock.possible") }));
+  const barred = outside(possible, low, high).map(({ from, to }) => ({ from, to, style: "barred" }));
+  const rock = async () => {
+    if (!rocks(bench)) await desk.act([{ do: "set", path: ["cycle"], value: "rock" }]);
+    await desk.solve();
+    if (bench.session.value) page.play(true);
+  };
+  return (
+    <>
+      <button class="play" disabled={!possible.length} aria-label={page.say("play")} title={bench.say("dock.rock_help")} onClick={() => void rock()}><Icon name="play" /></button>
+      <output class="at">{here === null ? "–" : shown(here, turns, size)}</output>
+      <Track
+        role="img" aria-label={bench.say("dock.possible_between", { ranges: possible.map((each) => each.map((x) => tick(x, turns, size)).join(" … ")).join(", ") || "–" })}
+        labels={ticks(low, high, turns).map((each) => ({ share: each.share, text: tick(each.value, turns, size) }))} pieces={[...able, ...barred]}
+        marks={possible.flat().filter((x) => share(x) > 0.001 && share(x) < 0.999).map((x) => ({ share: share(x), text: tick(Number((x / factor).toPrecision(4)) * factor, turns, size) }))}
+      >
+        {here !== null && <div class="thumb" style={at(Math.min(1, Math.max(0, share(lap(here)))))} />}
+      </Track>
+      <Cycle bench={bench} />
+    </>
+  );
+}
