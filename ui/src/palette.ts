@@ -5,11 +5,13 @@ type Colour = "ink" | "soft" | "line" | "accent" | "a" | "b" | "c" | "d";
 let known: Record<Colour, string> | null = null;
 const painters = new Set<() => void>();
 
-for (const query of ["(prefers-color-scheme: dark)", "print"])
-  matchMedia(query).addEventListener("change", () => {
-    known = null;
-    for (const paint of painters) paint();
-  });
+/** Paints every canvas again, in the colours that the page has now. */
+export function repaint(): void {
+  known = null;
+  for (const paint of painters) paint();
+}
+
+for (const query of ["(prefers-color-scheme: dark)", "print"]) matchMedia(query).addEventListener("change", repaint);
 
 export function colours(): Record<Colour, string> {
   if (known) return known;

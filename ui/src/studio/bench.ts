@@ -18,6 +18,9 @@ export const SHOWN = [
   "velocities", "accelerations", "forces", "loads", "transmission", "paths", "limits", "centres", "names", "dimensions", "reach", "grid",
 ] as const;
 export type ShownName = (typeof SHOWN)[number];
+/** What the tool Spring sets between two points. */
+export const SPRINGS = ["spring", "damper", "gas_spring", "cylinder", "torsion_spring"] as const;
+export type SpringName = (typeof SPRINGS)[number];
 
 /** What can be selected. A `point` may be a joint, a pivot or a point of one link; a `pair` is an entry of `joints`. */
 export interface Item {
@@ -27,12 +30,23 @@ export interface Item {
 
 export const same = (a: Item | null, b: Item | null) => a?.kind === b?.kind && a?.name === b?.name;
 
+/** How the sheet is looked at: what its bar and keys call. The sheet sets it. */
+export interface SheetView {
+  /** Zooms about the middle of the sheet. */
+  zoom(factor: number): void;
+  /** 100 %. */
+  full(): void;
+  fit(): void;
+  fitSelection(): void;
+}
+
 /** Settings of the person at the screen, remembered in the browser, not in the file. */
 export interface Settings {
   theme: "light" | "dark" | "";
   slim: boolean | null;
-  inspector: number;
-  dock: number;
+  /** Width of the inspector and height of the open dock, px; null: as the window suggests. */
+  inspector: number | null;
+  dock: number | null;
   snap: boolean;
   /** Spacing of the grid, m; 0: by the zoom. */
   grid: number;
@@ -42,15 +56,20 @@ export interface Settings {
   shown: Partial<Record<ShownName, boolean>>;
 }
 
-const SETTINGS: Settings = { theme: "", slim: null, inspector: 340, dock: 260, snap: true, grid: 0, unit: "mm", used: {}, shown: {} };
+const SETTINGS: Settings = { theme: "", slim: null, inspector: null, dock: null, snap: true, grid: 0, unit: "mm", used: {}, shown: {} };
 const STORED = "linkwright.settings";
 
 export class Bench {
   readonly tool = signal<ToolName>("move");
+  readonly spring = signal<SpringName>("spring");
   readonly selection = signal<Item[]>([]);
   readonly hovered = signal<Item | null>(null);
   readonly tab = signal<Tab>("inspect");
   readonly dock = signal<DockName | null>(null);
+  /** How the window is used: by its size. */
+  readonly layout = signal<"phone" | "desk" | "large">("desk");
+  /** On a phone: how far the drawer with inspector and curves is pulled out. */
+  readonly drawer = signal<"handle" | "half" | "full">("handle");
   readonly settings = signal<Settings>(stored());
   /** Where the pointer or the cross is, m; null: not on the sheet. */
   readonly cursor = signal<Vec | null>(null);
@@ -69,6 +88,8 @@ export class Bench {
   readonly inHand = signal<{ address: string; low: number; high: number } | null>(null);
   /** Brings elements into the picture; the sheet sets it. */
   reveal: (items: Item[]) => void = () => {};
+
+  view: SheetView | null = null;
 
   constructor(readonly desk: Desk) {
     effect(() => {

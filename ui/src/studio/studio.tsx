@@ -1,6 +1,6 @@
 // The studio: one screen around the sheet on which a mechanism is drawn, moved, loaded, measured and improved.
 import { render } from "preact";
-import { useLayoutEffect } from "preact/hooks";
+import { useLayoutEffect, useState } from "preact/hooks";
 import type { PageData } from "../data";
 import { Desk } from "../desk";
 import { Page } from "../living";
@@ -9,8 +9,13 @@ import { Bench } from "./bench";
 import { Dock } from "./dock/dock";
 import "./dock/dock.css";
 import "./frame/frame.css";
+import { Divider } from "./frame/divider";
+import { DOCK, followWindow, INSPECTOR, SHUT, sized } from "./frame/layout";
+import { MenuHost } from "./frame/menu";
 import { Rail } from "./frame/rail";
 import { Status } from "./frame/status";
+import { followTheme } from "./frame/theme";
+import { Tip } from "./frame/tip";
 import { TopBar } from "./frame/topbar";
 import { Inspector } from "./inspector/inspector";
 import "./inspector/inspector.css";
@@ -24,16 +29,34 @@ function Room({ bench }: { bench: Bench }) {
     document.documentElement.lang = language === "zh" ? "zh-CN" : "en";
     document.title = `${desk.name.value || desk.say("new")} – Linkwright`;
   }, [language, desk.name.value]);
+  const { settings, layout } = bench, [wide, tall] = useWindow(), large = layout.value === "large", { slim } = settings.value;
+  const inspector = sized(settings.value.inspector, wide, large, INSPECTOR), dock = sized(settings.value.dock, tall, large, DOCK);
+  const style = { "--inspector": `${inspector}px`, "--dock": `${bench.dock.value ? dock : SHUT}px` };
   return (
-    <div class="room">
+    <div class={`room ${layout.value}${slim ? " slim" : ""}`} style={style}>
       <TopBar bench={bench} />
       <Rail bench={bench} />
       <Stage bench={bench} />
       <Inspector bench={bench} />
       <Dock bench={bench} />
       <Status bench={bench} />
+      <Divider of="inspector" label={bench.say("divider.inspector")} value={inspector} least={INSPECTOR.least} most={Math.floor(INSPECTOR.share * wide)} set={(size) => bench.set({ inspector: size })} />
+      {bench.dock.value && <Divider of="dock" label={bench.say("divider.dock")} value={dock} least={DOCK.least} most={Math.floor(DOCK.share * tall)} set={(size) => bench.set({ dock: size })} />}
+      <MenuHost />
+      <Tip />
     </div>
   );
+}
+
+/** The size of the window, as it is now. */
+function useWindow(): [number, number] {
+  const [size, setSize] = useState<[number, number]>([innerWidth, innerHeight]);
+  useLayoutEffect(() => {
+    const follow = () => setSize([innerWidth, innerHeight]);
+    window.addEventListener("resize", follow);
+    return () => window.removeEventListener("resize", follow);
+  }, []);
+  return size;
 }
 
 async function open(): Promise<void> {
@@ -41,6 +64,8 @@ async function open(): Promise<void> {
   const known = new URLSearchParams(location.search), file = known.get("file") ?? data.file, language = known.get("lang");
   if (language === "en" || language === "zh") data.language = language;
   const page = new Page(data, []), desk = new Desk(page), bench = new Bench(desk);
+  followTheme(bench);
+  followWindow(bench);
   render(<Room bench={bench} />, document.getElementById("page")!);
   Object.assign(globalThis, { linkwright: page, desk, bench });
   await desk.open(file ? { name: file } : {});

@@ -2,6 +2,19 @@
 
 from __future__ import annotations
 
-from linkwright.words import Message, _
+from linkwright.words import Message, _, pgettext
 
-FRAME: dict[str, Message] = {"tools": _("Tools")}
+RAIL: dict[str, Message] = {
+    "tools": _("Tools"),
+    "rail.icons": _("Icons only"),
+    "rail.names": _("Show names"),
+    "variant.spring": pgettext("tool", "Spring"),
+    "variant.damper": _("Damper"),
+    "variant.gas_spring": _("Gas spring"),
+    "variant.cylinder": _("Cylinder"),
+    "variant.torsion_spring": _("Torsion spring"),
+    "divider.inspector": _("Width of the inspector"),
+    "divider.dock": _("Height of the curves"),
+}
+
+FRAME: dict[str, Message] = RAIL
