@@ -11,6 +11,23 @@ export interface Load {
   angle: number | null;
   ends: string[];
   size: string;
+  /** In what its direction stays: space, link, ray (two points of its link) or velocity. */
+  held?: string;
+  /** Direction in the axes of its link, rad. */
+  turn?: number | null;
+  ray?: string[];
+  /** Along the left normal of the ray. */
+  normal?: boolean;
+  /** Ends with their links: link and point. */
+  between?: [string, string][];
+  links?: string[];
+  joint?: string;
+  /** Size (SI), the largest of a ramp; null: no plain number. */
+  magnitude?: number | null;
+  stiffness?: number | null;
+  preload?: number | null;
+  /** Whether it acts all the time. */
+  always?: boolean;
 }
 
 // Lengths in pixels: of a force's arrow and of what of it is left to its point, radius of a torque's arc.

@@ -8,8 +8,40 @@ export interface Picture {
   driver: string | null;
   guided: string[];
   loads: Record<string, Load>;
+  /** m/s²; null: none. */
+  gravity?: [number, number] | null;
+  masses?: Record<string, Mass>;
+  guides?: Record<string, Guide>;
+  drives?: Record<string, Drive>;
   /** Points that are where the solved machine has them, by its dimensions. */
   placed?: string[];
+}
+
+/** A link's mass, kg (null: no plain number) and as it is written; its centre: a point, coordinates in the link's axes (m)
+ *  or null: midway. */
+export interface Mass {
+  mass: number | null;
+  size: string;
+  centre: string | [number, number] | null;
+}
+
+/** A joint along which a block slides; `direction`: rad in the axes of the guide's link, else along a ray of two points. */
+export interface Guide {
+  guide: string;
+  through: string;
+  block: string;
+  at: string;
+  direction: number | null;
+  ray: string[];
+}
+
+/** What is driven: a link about its pin, or the joint along which a block slides; `rate`: SI. */
+export interface Drive {
+  turn: string;
+  about: string;
+  slide: string;
+  speed: string;
+  rate: number | null;
 }
 
 export type Tool = "select" | "fixed" | "link" | "driver" | "guide" | "slot" | "gear" | "rack" | "cam" | "mass" | "load" | "curve" | "photo" | "remove";

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from linkwright.core.data import Plain
-from linkwright.core.expressions import amount
-from linkwright.errors import LinkwrightError, QuantityError
+from linkwright.errors import LinkwrightError
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar
-from linkwright.server.entries import places, points_of, section, texts, word
+from linkwright.server.entries import places, points_of, section, word
+from linkwright.server.loads import applied
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
@@ -19,10 +18,9 @@ if TYPE_CHECKING:
 
 def picture_of(root: Node) -> Plain:
     """What of a text's tree can be drawn before it is a model: points (m), links with their points, fixed points,
-    driver, loads with the points or links that they act on and the direction of a force (rad)."""
+    driver, and what :func:`~linkwright.server.loads.applied` finds."""
     fixed = places(section(root, "frame", "points"))
     driver = section(root, "driver")
-    loads = [(name, load) for name, load in section(root, "loads") or () if isinstance(load, MappingNode)]
     return {
         "points": {**places(section(root, "drawing")), **fixed},
         "fixed": list(fixed),
@@ -35,25 +33,7 @@ def picture_of(root: Node) -> Plain:
             and joint.get("block") is not None
             and isinstance(each := joint.get("at"), Scalar)
         ],
-        "loads": {name: _load(load) for name, load in loads},
-    }
-
-
-def _load(load: MappingNode) -> Plain:
-    """A load as it is drawn: its words, the link and point that it acts on, its direction in space (rad)."""
-    angle, components = None, texts(load.get("components"))
-    with suppress(QuantityError, ValueError):
-        x, y = (amount(each, "force") for each in components) if components else (0.0, 0.0)
-        angle = math.atan2(y, x) if components else amount(word(load, "direction"), "angle")
-    ends = texts(load.get("between")) or texts(load.get("links"))
-    size = " ".join(filter(None, (word(load, key) for key in ("magnitude", "stiffness", "damping")))) or components
-    return {
-        "kind": word(load, "kind"),
-        "on": word(load, "on"),
-        "at": word(load, "at"),
-        "angle": angle,
-        "ends": [end.split(".")[-1] for end in ends],
-        "size": size if isinstance(size, str) else ", ".join(size),
+        **applied(root),
     }
 
 
