@@ -1,5 +1,6 @@
 // Loads where they stand on the sheet: directions in space, lengths of arrows by size, what is under the pointer.
 import { distance, type Load } from "../../drawn_loads";
+import type { Call } from "../../engine";
 import type { Guide, Picture } from "../../picture";
 import type { Session } from "../../session";
 import type { Vec } from "../../shapes";
@@ -32,14 +33,20 @@ const NOTHING = 1e-12;
 /** The machine or drawing as it stands on the sheet, with directions of its links. */
 export class Stand {
   readonly picture: Partial<Picture>;
+  private readonly call: Call | null = null;
+  private readonly k: number = 0;
 
-  constructor(readonly scene: Scene, picture: Picture | undefined, readonly session: Session | null, readonly index: number) {
+  /** `place`: among the positions of the machine, between them as well. */
+  constructor(readonly scene: Scene, picture: Picture | undefined, readonly session: Session | null, place: number) {
     this.picture = picture ?? {};
+    if (!session) return;
+    const { main, solver, n } = session.model, between = Number.isInteger(place) ? null : solver.whole(place);
+    [this.call, this.k] = between ? [between, 0] : [main, Math.round(place) % n];
   }
 
-  static of(bench: Bench, scene: Scene): Stand {
+  static of(bench: Bench, scene: Scene, place?: number): Stand {
     const session = bench.session.value;
-    return new Stand(scene, bench.desk.solved.value.picture, session, session ? bench.page.index(session) : 0);
+    return new Stand(scene, bench.desk.solved.value.picture, session, place ?? (session ? bench.page.index(session) : 0));
   }
 
   get loads(): Record<string, Load> {
@@ -47,8 +54,7 @@ export class Stand {
   }
 
   row(name: string): number | null {
-    const main = this.session?.model.main;
-    return main?.has(name) ? main.row(name)[this.index] : null;
+    return this.call?.has(name) ? this.call.row(name)[this.k] : null;
   }
 
   pair(name: string): Vec | null {

@@ -37,7 +37,7 @@ export interface Snap {
 export interface Field {
   key: string;
   label: string;
-  quantity: "length" | "angle" | "force" | "torque" | "stiffness" | "mass" | "teeth" | "number";
+  quantity: "length" | "angle" | "force" | "torque" | "stiffness" | "twist" | "damping" | "mass" | "rate" | "velocity" | "teeth" | "number";
   /** As it is now (SI; angles rad), or a text such as 20 : 40. */
   value: number | string;
   text: string | null;
@@ -93,6 +93,8 @@ export interface Tool {
   anchor?(): Vec | null;
   /** Points in hand, to which the pointer does not snap. */
   avoid?(): string[];
+  /** What it has snapped to by itself, at the head of the panel ("Along the guide"); "": nothing. */
+  note?(): string;
   /** A typed value as a file has it ("140 mm", "30 deg"), "" to let it follow the pointer again; a sentence where it is refused. */
   type?(key: string, text: string): string | null;
   /** Whether it can do something with an element: only those light up. */
