@@ -22,7 +22,7 @@ const UNITS: Partial<Record<Quantity, Unit[]>> = {
   stiffness: [["N/mm", 1e3], ["N/m", 1], ["kN/m", 1e3], ["kN/mm", 1e6], ["lbf/in", 175.12683524647636]],
   twist: [["N·m/rad", 1], ["N·m/deg", 1 / DEGREE, "n·m/°"], ["N·mm/rad", 1e-3]],
   damping: [["N·s/m", 1, "ns/m", "n*s/m"], ["N·s/mm", 1e3, "ns/mm", "n*s/mm"], ["kN·s/m", 1e3]],
-  rate: [["rpm", 6 * DEGREE, "r/min", "转/分"], ["rad/s", 1], ["deg/s", DEGREE, "°/s"], ["Hz", 360 * DEGREE]],
+  rate: [["rpm", 6 * DEGREE, "r/min", "转/分"], ["rad/s", 1], ["deg/s", DEGREE, "°/s"]],
   velocity: [["mm/s", 1e-3], ["m/s", 1], ["m/min", 1 / 60], ["in/s", 0.0254]],
   mass: [["kg", 1, "千克", "公斤"], ["g", 1e-3, "克"], ["t", 1e3, "吨"], ["lb", 0.45359237, "lbs", "磅"]],
 };
