@@ -86,6 +86,9 @@ export class Desk {
   /** A file on the disk that is not the one that was opened, and so is not overwritten unasked. */
   readonly onDisk = signal<{ name: string; version: string } | null>(null);
   readonly dirty = signal(false);
+  /** When the last draft was kept (ms of the clock), 0: none; whether the file has been saved at all. */
+  readonly keptAt = signal(0);
+  readonly onFile = signal(false);
   /** Whether the server has not answered since a question or a change that it does not have. */
   readonly gone = signal(false);
   private unkept = false;
@@ -169,6 +172,7 @@ export class Desk {
       if (!kept) return;
       this.gone.value = false;
       file.serial = kept.serial;
+      if (file === this.file) this.keptAt.value = kept.serial / 1000;
       if (kept.other !== null && file === this.file) this.elsewhere.value = kept.other;
     }));
   }
@@ -221,6 +225,8 @@ export class Desk {
     this.onDisk.value = null;
     this.text.value = plain(opened.text);
     this.dirty.value = opened.recovered;
+    this.onFile.value = opened.version !== "";
+    this.keptAt.value = opened.recovered ? opened.serial / 1000 : 0;
     this.page.note.value = opened.recovered ? this.say("recovered") : "";
     this.clear();
     await this.solve();
@@ -242,6 +248,7 @@ export class Desk {
     if (!saved || file !== this.file) return;
     this.onDisk.value = saved.saved ? null : { name, version: saved.version };
     if (!saved.saved) return;
+    this.onFile.value = true;
     if (own) file.version = saved.version;
     else this.file = { name: (this.name.value = saved.name), version: saved.version, serial: 0 };
     this.dirty.value = text !== this.text.value;

@@ -10,13 +10,14 @@ import { Dock } from "./dock/dock";
 import "./dock/dock.css";
 import "./frame/frame.css";
 import { Divider } from "./frame/divider";
+import { listen } from "./frame/keys";
 import { DOCK, followWindow, INSPECTOR, SHUT, sized } from "./frame/layout";
 import { MenuHost } from "./frame/menu";
 import { Rail } from "./frame/rail";
 import { Status } from "./frame/status";
 import { followTheme } from "./frame/theme";
 import { Tip } from "./frame/tip";
-import { TopBar } from "./frame/topbar";
+import { titleOf, TopBar } from "./frame/topbar";
 import { Inspector } from "./inspector/inspector";
 import "./inspector/inspector.css";
 import "./sheet/sheet.css";
@@ -27,8 +28,9 @@ function Room({ bench }: { bench: Bench }) {
   const { desk, page } = bench, language = page.language.value;
   useLayoutEffect(() => {
     document.documentElement.lang = language === "zh" ? "zh-CN" : "en";
-    document.title = `${desk.name.value || desk.say("new")} – Linkwright`;
-  }, [language, desk.name.value]);
+    document.title = `${titleOf(bench)} – Linkwright`;
+    if (desk.name.value) remember({ file: desk.name.value, lang: language });
+  }, [language, desk.name.value, desk.onFile.value]);
   const { settings, layout } = bench, [wide, tall] = useWindow(), large = layout.value === "large", { slim } = settings.value;
   const inspector = sized(settings.value.inspector, wide, large, INSPECTOR), dock = sized(settings.value.dock, tall, large, DOCK);
   const style = { "--inspector": `${inspector}px`, "--dock": `${bench.dock.value ? dock : SHUT}px` };
@@ -59,6 +61,13 @@ function useWindow(): [number, number] {
   return size;
 }
 
+/** The address leads to what is open, so that a page that is loaded again shows it. */
+function remember(values: Record<string, string>): void {
+  const known = new URLSearchParams(location.search);
+  for (const [name, value] of Object.entries(values)) known.set(name, value);
+  history.replaceState(null, "", `?${known}${location.hash}`);
+}
+
 async function open(): Promise<void> {
   const data = JSON.parse(document.getElementById("data")!.textContent) as PageData & { file: string | null };
   const known = new URLSearchParams(location.search), file = known.get("file") ?? data.file, language = known.get("lang");
@@ -66,6 +75,7 @@ async function open(): Promise<void> {
   const page = new Page(data, []), desk = new Desk(page), bench = new Bench(desk);
   followTheme(bench);
   followWindow(bench);
+  listen(bench, {});
   render(<Room bench={bench} />, document.getElementById("page")!);
   Object.assign(globalThis, { linkwright: page, desk, bench });
   await desk.open(file ? { name: file } : {});

@@ -1,5 +1,6 @@
 // Menus: one at a time, at a button or where the pointer is, over everything else.
 import { signal } from "@preact/signals";
+import type { ComponentChildren } from "preact";
 import { useLayoutEffect, useRef } from "preact/hooks";
 import { Icon } from "./icons";
 import type { IconName } from "./signs";
@@ -50,17 +51,18 @@ interface ButtonProps {
   label: string;
   choices: () => Choices;
   class?: string;
-  children: preact.ComponentChildren;
+  children: ComponentChildren;
   /** Its name, where its text is not that. */
   name?: string;
+  tip?: string;
 }
 
 /** A button that shows choices. */
-export function MenuButton({ label, choices, class: style = "ghost", children, name }: ButtonProps) {
+export function MenuButton({ label, choices, class: style = "ghost", children, name, tip }: ButtonProps) {
   const button = useRef<HTMLButtonElement>(null), shown = isOpen(button.current);
   return (
     <button
-      ref={button} class={style} aria-haspopup="menu" aria-expanded={shown} aria-label={name}
+      ref={button} class={style} aria-haspopup="menu" aria-expanded={shown} aria-label={name} data-tip={tip}
       onClick={() => (shown ? closeMenu() : showMenu(label, button.current!, choices()))}
       onKeyDown={(event) => {
         if (event.key !== "ArrowDown") return;
