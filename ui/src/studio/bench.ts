@@ -40,6 +40,16 @@ export interface SheetView {
   fitSelection(): void;
 }
 
+/** A picture behind the drawing: its upper left corner and width, m; `shape`: height over width; `opacity`: 0…1. */
+export interface Photo {
+  href: string;
+  corner: Vec;
+  width: number;
+  shape: number;
+  opacity: number;
+  locked: boolean;
+}
+
 /** Settings of the person at the screen, remembered in the browser, not in the file. */
 export interface Settings {
   theme: "light" | "dark" | "";
@@ -86,6 +96,12 @@ export class Bench {
   readonly locked = signal<ReadonlySet<string>>(new Set());
   /** The dimension in hand, with the range of its slider (SI). */
   readonly inHand = signal<{ address: string; low: number; high: number } | null>(null);
+  /** A curve that a point of a linkage should follow, m; null: none is drawn. */
+  readonly target = signal<{ points: Vec[]; closed: boolean } | null>(null);
+  /** Curves of a candidate that is looked at, laid over the sheet, m. */
+  readonly foreseen = signal<Vec[][]>([]);
+  /** A picture behind the drawing, kept with it in this browser. */
+  readonly photo = signal<Photo | null>(null);
   /** Brings elements into the picture; the sheet sets it. */
   reveal: (items: Item[]) => void = () => {};
 
