@@ -1,6 +1,9 @@
 // Colours of the style sheet for what is painted on canvases.
 
-type Colour = "ink" | "soft" | "line" | "accent" | "a" | "b" | "c" | "d";
+const NAMES = [
+  "ink", "soft", "line", "accent", "a", "b", "c", "d", "velocity", "acceleration", "force", "load", "input", "good", "warn", "bad", "axis", "grid-major",
+] as const;
+export type Colour = (typeof NAMES)[number];
 
 let known: Record<Colour, string> | null = null;
 const painters = new Set<() => void>();
@@ -16,8 +19,7 @@ for (const query of ["(prefers-color-scheme: dark)", "print"]) matchMedia(query)
 export function colours(): Record<Colour, string> {
   if (known) return known;
   const style = getComputedStyle(document.documentElement);
-  const names: Colour[] = ["ink", "soft", "line", "accent", "a", "b", "c", "d"];
-  return (known = Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`)])) as Record<Colour, string>);
+  return (known = Object.fromEntries(NAMES.map((name) => [name, style.getPropertyValue(`--${name}`)])) as Record<Colour, string>);
 }
 
 /** A canvas whose picture is kept as sharp as the display and in the colours of the page; `paint` after each change. */

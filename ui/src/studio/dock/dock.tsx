@@ -2,6 +2,7 @@
 import { useEffect } from "preact/hooks";
 import type { Session } from "../../session";
 import { type Bench, type DockName, DOCKS } from "../bench";
+import { Curves, CurvesHead } from "./curves";
 import { beginning, TimeLine } from "./transport";
 
 export function Dock({ bench }: { bench: Bench }) {
@@ -14,10 +15,19 @@ export function Dock({ bench }: { bench: Bench }) {
   return (
     <section class={open ? "dock open" : "dock"} aria-label={bench.say("dock")}>
       <TimeLine bench={bench} />
-      <Tabs bench={bench} />
-      {open && <div class="dock-panel" role="tabpanel" id="dock-panel" aria-labelledby={`dock-tab-${open}`} />}
+      <div class="dock-head">
+        <Tabs bench={bench} />
+        {open === "curves" && session && <CurvesHead bench={bench} session={session} />}
+      </div>
+      {open && <div class="dock-panel" role="tabpanel" id="dock-panel" aria-labelledby={`dock-tab-${open}`}><Panel bench={bench} name={open} /></div>}
     </section>
   );
+}
+
+function Panel({ bench, name }: { bench: Bench; name: DockName }) {
+  const session = bench.session.value;
+  if (name === "curves") return session && session.data.positions.count > 1 ? <Curves key={session} bench={bench} session={session} /> : <p class="no-curves">{bench.say("dock.no_machine")}</p>;
+  return null;
 }
 
 /** The file for which it was set to its beginning. */
@@ -42,15 +52,13 @@ function Tabs({ bench }: { bench: Bench }) {
     all.at((here + step) % all.length)?.focus();
   };
   return (
-    <div class="dock-head">
-      <div class="dock-tabs" role="tablist" aria-label={bench.say("dock")} onKeyDown={key}>
-        {DOCKS.map((each, k) => (
+    <div class="dock-tabs" role="tablist" aria-label={bench.say("dock")} onKeyDown={key}>
+      {DOCKS.map((each, k) => (
           <button
             key={each} id={`dock-tab-${each}`} role="tab" aria-selected={each === open} aria-controls={each === open ? "dock-panel" : undefined}
             tabIndex={each === open || (!open && k === 0) ? 0 : -1} onClick={() => choose(each)}
           >{bench.say(`dock.${each}`)}</button>
         ))}
-      </div>
     </div>
   );
 }

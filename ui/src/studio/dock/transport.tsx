@@ -6,7 +6,7 @@ import type { Session } from "../../session";
 import { put } from "../../strokes";
 import { digits, quantity } from "../../words";
 import type { Bench } from "../bench";
-import { Icon } from "./icons";
+import { Icon } from "../frame/icons";
 import { course, limits, outside, pace, phaseOf, phases, type Stretch, ticks, ticksOf, typed } from "./timeline";
 
 const SPEEDS = [0.01, 0.05, 0.1, 0.25, 0.5, 1, 2];
@@ -92,7 +92,7 @@ function Speed({ bench, session }: { bench: Bench; session: Session }) {
         <select aria-label={page.say("speed")} value={page.pace.value} onChange={(event) => (page.pace.value = Number(event.currentTarget.value))}>
           {SPEEDS.map((each) => <option key={each} value={each}>{said(each)}</option>)}
         </select>
-        <Icon name="down" size={14} />
+        <Icon name="chevron" size={14} />
       </label>
     </>
   );
@@ -119,7 +119,7 @@ function Track({ labels, pieces, marks, children, ...rest }: {
     <div class="scrub" {...rest}>
       <div class="track">{pieces.map((each, k) => <div key={k} class={each.style} style={over(each)} />)}</div>
       {pieces.map((each, k) => each.name && each.to - each.from > 0.06 && <u key={k} class="zone" style={at((each.from + each.to) / 2)}>{each.name}</u>)}
-      {marks.map(({ share, text }, k) => <i key={k} class="limit" style={at(share)}><u>{text}</u></i>)}
+      {marks.map(({ share, text }, k) => <i key={k} class={`limit${share < 0.06 ? " at-start" : share > 0.94 ? " at-end" : ""}`} style={at(share)}><u>{text}</u></i>)}
       <div class="ticks">{labels.map(({ share, text }, k) => <i key={k} style={at(share)}>{text}</i>)}</div>
       {children}
     </div>
