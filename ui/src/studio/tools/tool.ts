@@ -77,7 +77,7 @@ export interface Sheet {
 
 export interface Tool {
   readonly name: ToolName;
-  /** The next step, as a key of words with its values. */
+  /** The next step, as a key of words with its values; keys stand in brackets in the sentence: [Esc]. */
   hint(): [key: string, values?: Record<string, string>];
   down?(spot: Spot): void;
   move?(spot: Spot): void;
@@ -85,8 +85,6 @@ export interface Tool {
   enter?(): void;
   /** Goes back one step and leaves nothing behind; false where there was none to go back. */
   escape(): boolean;
-  /** Where the element in hand begins, m: the sheet snaps to directions from there and to lengths equal to others; null: nothing is in hand. */
-  anchor?(): Vec | null;
   /** The values in hand, the first one takes digits at once; none: no panel. */
   fields?(): Field[];
   /** From where lengths and directions run: the pointer snaps to horizontal, vertical, steps of 15° and equal lengths. */

@@ -1,0 +1,208 @@
+// Dimension: click a link, two points or two links, then where the dimension stands, and type its value: it drives the drawing.
+import type { Action } from "../../picture";
+import type { Vec } from "../../shapes";
+import type { Item } from "../bench";
+import type { Scene } from "../sheet/scene";
+import { Clicks, distance, heading, polar, turned, TypedValues } from "./hand";
+import { line, outline } from "./marks";
+import type { Field, MakeTool, Overlay, Sheet, Spot, Tool } from "./tool";
+import { reads } from "./typed";
+
+// Least length, m; distance of the line from what it measures and radius of an arc, at least, px.
+const LEAST = 5e-5, OFF = 14, ARC = 24;
+
+/** What is measured: the length of a bar, the distance of two points, the angle of the second link from the first. */
+type Measure =
+  | { kind: "length"; link: string; points: [string, string] }
+  | { kind: "distance"; points: [string, string] }
+  | { kind: "angle"; links: [string, string]; at: string; arms: [string, string] };
+
+/** What the picked elements measure; null: there is one more to pick. */
+export function measured(scene: Scene, picked: Item[]): Measure | null {
+  const [first, second] = picked;
+  if (first?.kind === "link" && second) return between(scene, first.name, second.name);
+  if (first?.kind === "link") return ends(scene, scene.links[first.name].slice(0, 2) as [string, string]);
+  return second ? ends(scene, [first.name, second.name]) : null;
+}
+
+function ends(scene: Scene, points: [string, string]): Measure {
+  const link = Object.keys(scene.links).find((name) => scene.links[name].length === 2 && points.every((each) => scene.links[name].includes(each)));
+  return link ? { kind: "length", link, points } : { kind: "distance", points };
+}
+
+/** The angle at the joint of two links, or at the first point of the second one. */
+function between(scene: Scene, a: string, b: string): Measure {
+  const at = scene.links[a].find((point) => scene.links[b].includes(point)) ?? scene.links[b][0];
+  const arm = (link: string, from: string) => scene.links[link].find((point) => point !== from)!;
+  const from = scene.links[a].includes(at) ? at : scene.links[a][0];
+  return { kind: "angle", links: [a, b], at, arms: [arm(a, from), arm(b, at)] };
+}
+
+/** The directions of the two arms of an angle. */
+function directions(scene: Scene, { links: [a], at, arms }: Measure & { kind: "angle" }): [number, number] {
+  const from = scene.links[a].includes(at) ? at : scene.links[a].find((point) => point !== arms[0])!;
+  return [heading(scene.at(from)!, scene.at(arms[0])!), heading(scene.at(at)!, scene.at(arms[1])!)];
+}
+
+export function sizeOf(scene: Scene, measure: Measure): number {
+  if (measure.kind !== "angle") return distance(scene.at(measure.points[0])!, scene.at(measure.points[1])!);
+  const [a, b] = directions(scene, measure);
+  return Math.abs(turned(b - a));
+}
+
+/** What gives a measure its value (SI), with its text. */
+export function driven(scene: Scene, measure: Measure, value: number, text: string, locked: string[]): Action[] {
+  if (measure.kind === "length") return [{ do: "set", path: ["links", measure.link, "length"], value: text }];
+  if (measure.kind === "angle") {
+    const [a, b] = directions(scene, measure), bent = turned(b - a), turn = (bent < 0 ? -value : value) - bent, centre = scene.at(measure.at)!;
+    const others = scene.links[measure.links[1]].filter((point) => point !== measure.at && scene.at(point));
+    const places = others.map((point) => [point, polar(centre, distance(centre, scene.at(point)!), heading(centre, scene.at(point)!) + turn)]);
+    return [{ do: "move", points: Object.fromEntries(places) as Record<string, Vec>, locked }];
+  }
+  // The point that is clicked last moves, but a pivot only where both are pivots.
+  const fixed = (point: string) => scene.points.get(point)!.fixed, [a, b] = measure.points;
+  const [from, to] = fixed(b) && !fixed(a) ? [b, a] : [a, b], at = polar(scene.at(from)!, value, heading(scene.at(from)!, scene.at(to)!));
+  if (fixed(to)) return [{ do: "set", path: ["frame", "points", to], value: at.map((each) => `${Number((1e3 * each).toFixed(4))} mm`) }];
+  return [{ do: "move", points: { [to]: at }, locked }];
+}
+
+class DimensionTool implements Tool {
+  readonly name = "dimension";
+  private readonly clicks = new Clicks((spot) => this.click(spot));
+  private values: TypedValues;
+  private picked: Item[] = [];
+  /** Where its line stands; null: it follows the pointer. */
+  private stands: Spot | null = null;
+
+  constructor(private readonly sheet: Sheet) {
+    this.values = new TypedValues(sheet.bench, { length: "length", angle: "angle" });
+  }
+
+  hint(): [string] {
+    const step = !this.picked.length ? "first" : !this.measure ? "second" : this.stands ? "value" : "place";
+    return [`hint.dimension.${step}`];
+  }
+
+  down = (spot: Spot) => this.clicks.down(spot);
+
+  move(spot: Spot): void {
+    this.clicks.move(spot);
+    this.sheet.redraw();
+  }
+
+  up = (spot: Spot) => this.clicks.up(spot);
+
+  enter(): void {
+    const { spot } = this.sheet;
+    if (this.measure && (this.values.any || this.stands)) void this.set();
+    else if (spot) this.click(spot);
+  }
+
+  escape(): boolean {
+    this.clicks.drop();
+    const back = this.values.clear() || this.stands !== null || this.picked.splice(-1).length > 0;
+    this.stands = null;
+    this.sheet.redraw();
+    return back;
+  }
+
+  private get measure(): Measure | null {
+    const { scene } = this.sheet, there = this.picked.every(({ kind, name }) => (kind === "link" ? name in scene.links : scene.points.has(name)));
+    return there && this.picked.length ? measured(scene, this.picked) : null;
+  }
+
+  fields(): Field[] {
+    const { measure } = this;
+    if (!measure) return [];
+    const key = measure.kind === "angle" ? "angle" : "length";
+    return [this.values.field(key, this.values.value(key) ?? sizeOf(this.sheet.scene, measure))];
+  }
+
+  type = (key: string, text: string) => this.values.type(key, text, (value) => (key === "length" ? value > LEAST : value >= 0 && value <= Math.PI));
+
+  takes = ({ kind }: Item) => kind === "point" || kind === "link" || kind === "dimension";
+
+  private click(spot: Spot): void {
+    const [first, second] = this.picked, found = this.under(spot);
+    if (this.measure && (this.stands || this.values.any)) {
+      if (this.values.any) void this.set();
+      else this.drop();
+    } else if (!first) this.begin(spot, found);
+    else if (first.kind === "point" && !second) {
+      if (found?.kind === "point" && found.name !== first.name) this.picked.push(found);
+      else this.sheet.refuse("refuse.dimension_second");
+    } else if (first.kind === "link" && !second && found?.kind === "link" && found.name !== first.name) this.picked.push(found);
+    else this.stands = spot;
+    this.sheet.redraw();
+  }
+
+  private begin(spot: Spot, found: Item | null): void {
+    const { scene, bench } = this.sheet;
+    if (!found) return this.sheet.refuse("refuse.dimension_first");
+    const known = found.kind === "dimension" ? found.name.replace(/\.length$/, "") : found.name;
+    this.picked = found.kind === "dimension" ? [{ kind: "link", name: known }] : found.kind === "link" ? side(scene, known, spot.free) : [found];
+    if (found.kind !== "dimension") return;
+    this.stands = spot;
+    bench.select(found);
+  }
+
+  private under({ under }: Spot): Item | null {
+    const { scene } = this.sheet;
+    return under.find(({ kind, name }) => (kind === "point" && scene.at(name)) || (kind === "link" && scene.corners(name).length > 1) || (kind === "dimension" && name.replace(/\.length$/, "") in scene.links)) ?? null;
+  }
+
+  private async set(): Promise<void> {
+    const { measure } = this, { scene, bench } = this.sheet;
+    if (!measure) return;
+    const key = measure.kind === "angle" ? "angle" : "length", value = this.values.value(key) ?? sizeOf(scene, measure);
+    const text = this.values.written(key) ?? `${Number((1e3 * value).toFixed(1))} mm`, { picked, stands } = this;
+    this.drop();
+    const made = await this.sheet.act(driven(scene, measure, value, text, [...bench.locked.value]));
+    if (made && measure.kind === "length") bench.select({ kind: "dimension", name: `${measure.link}.length` });
+    else if (!made && !this.picked.length) [this.picked, this.stands] = [picked, stands];
+    this.sheet.redraw();
+  }
+
+  private drop(): void {
+    this.values.clear();
+    [this.picked, this.stands] = [[], null];
+  }
+
+  draw(over: Overlay): void {
+    const { sheet, measure } = this, { scene, camera } = sheet, { unit } = sheet.bench.settings.value, spot = this.stands ?? sheet.spot;
+    for (const { kind, name } of this.picked)
+      if (kind === "link") over.path(outline(sheet, name), "hand halo");
+      else if (scene.at(name)) over.circle(camera.screen(scene.at(name)!), 8, "hand ring");
+    if (!measure || !spot) return;
+    const key = measure.kind === "angle" ? "angle" : "length", text = reads(this.values.value(key) ?? sizeOf(scene, measure), key, unit);
+    if (measure.kind === "angle") return this.arc(over, measure, spot, text);
+    const [a, b] = measure.points.map((point) => camera.screen(scene.at(point)!)), far = distance(a, b) || 1;
+    const off = ((spot.screen[0] - a[0]) * (b[1] - a[1]) - (spot.screen[1] - a[1]) * (b[0] - a[0])) / far;
+    over.dimension(a, b, text, "hand strong", Math.abs(off) < OFF ? (off < 0 ? -OFF : OFF) : off);
+  }
+
+  private arc(over: Overlay, measure: Measure & { kind: "angle" }, spot: Spot, text: string): void {
+    const { scene, camera } = this.sheet, [a, b] = directions(scene, measure), at = camera.screen(scene.at(measure.at)!), r = Math.max(ARC, distance(at, spot.screen));
+    const bent = turned(b - a), [from, to, middle] = [polar(at, r, -a), polar(at, r, -b), polar(at, r + 14, -a - bent / 2)];
+    over.path(line(at, from) + line(at, to), "soft dashed");
+    over.path(`M${from[0].toFixed(1)} ${from[1].toFixed(1)}A${r.toFixed(1)} ${r.toFixed(1)} 0 0 ${bent > 0 ? 0 : 1} ${to[0].toFixed(1)} ${to[1].toFixed(1)}`, "hand");
+    over.text([middle[0], middle[1] + 4], text, "hand strong");
+  }
+
+  leave(): void {
+    this.clicks.drop();
+    this.drop();
+  }
+}
+
+/** A bar as it is, of a plate the two points whose side is nearest to a place. */
+function side(scene: Scene, link: string, at: Vec): Item[] {
+  const points = scene.links[link].filter((point) => scene.at(point));
+  if (points.length < 3) return [{ kind: "link", name: link }];
+  const sides = points.map((point, k) => [point, points[(k + 1) % points.length]]);
+  // How much longer the way over the place is than the side itself.
+  const off = (each: string[]) => each.reduce((sum, point) => sum + distance(scene.at(point)!, at), 0) - distance(scene.at(each[0])!, scene.at(each[1])!);
+  return sides.reduce((best, each) => (off(each) < off(best) ? each : best)).map((name) => ({ kind: "point", name }));
+}
+
+export const makeDimension: MakeTool = (sheet) => new DimensionTool(sheet);

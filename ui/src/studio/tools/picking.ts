@@ -1,0 +1,143 @@
+// Tools that take elements one after the other, and perhaps a value, then make something of them: slots, gears, cams and kin.
+import type { Action } from "../../picture";
+import type { Vec } from "../../shapes";
+import type { Item, ToolName } from "../bench";
+import { Clicks, TypedValues } from "./hand";
+import type { Field, MakeTool, Overlay, Sheet, Spot, Tool } from "./tool";
+
+/** What has been clicked: a link or a point, with its place (m) and actions that have to come before it is there. */
+export interface Picked {
+  name: string;
+  at: Vec;
+  before: Action[];
+}
+
+/** What a tool of this kind has in hand. */
+export interface Hand {
+  readonly sheet: Sheet;
+  readonly picked: Picked[];
+  readonly values: TypedValues;
+}
+
+export interface Step {
+  hint: string;
+  /** What is taken at a place; null where nothing is, which has been said. */
+  pick(hand: Hand, spot: Spot): Picked | null;
+  takes(hand: Hand, item: Item): boolean;
+}
+
+export interface Picks {
+  name: ToolName;
+  /** What is made, to be selected. */
+  makes: Item["kind"];
+  steps: Step[];
+  /** The last step, in which values are in hand; none: what is made is made with the last click. */
+  last?: {
+    hint: string;
+    quantities: Record<string, Field["quantity"]>;
+    fields(hand: Hand, spot: Spot): Field[];
+    admits?(key: string, value: number): boolean;
+    takes?(hand: Hand, item: Item): boolean;
+    /** From where its direction runs. */
+    anchor?(hand: Hand): Vec;
+  };
+  /** Whether a drag takes what it begins at. */
+  drags?: boolean;
+  /** What is made; null where nothing is, which has been said. */
+  actions(hand: Hand, spot: Spot): Action[] | null;
+  draw(over: Overlay, hand: Hand, spot: Spot | null): void;
+}
+
+class PickTool implements Tool, Hand {
+  picked: Picked[] = [];
+  readonly values: TypedValues;
+  private readonly clicks: Clicks;
+
+  constructor(readonly sheet: Sheet, private readonly picks: Picks) {
+    this.values = new TypedValues(sheet.bench, picks.last?.quantities ?? {});
+    this.clicks = new Clicks((spot) => this.click(spot), () => !!picks.drags && !this.picked.length);
+  }
+
+  get name() {
+    return this.picks.name;
+  }
+
+  private get step(): Step | undefined {
+    return this.picks.steps[this.picked.length];
+  }
+
+  hint(): [string, Record<string, string>] {
+    return [(this.step ?? this.picks.last!).hint, { first: this.picked[0]?.name ?? "", second: this.picked[1]?.name ?? "" }];
+  }
+
+  down = (spot: Spot) => this.clicks.down(spot);
+
+  move(spot: Spot): void {
+    this.clicks.move(spot);
+    this.sheet.redraw();
+  }
+
+  up = (spot: Spot) => this.clicks.up(spot);
+
+  enter(): void {
+    if (this.sheet.spot) this.click(this.sheet.spot);
+  }
+
+  escape(): boolean {
+    this.clicks.drop();
+    const back = this.values.clear() || this.picked.length > 0 && this.picked.splice(-1).length > 0;
+    this.sheet.redraw();
+    return back;
+  }
+
+  anchor(): Vec | null {
+    return this.step ? null : this.picks.last?.anchor?.(this) ?? null;
+  }
+
+  fields(): Field[] {
+    const { spot } = this.sheet;
+    return this.step || !spot ? [] : this.picks.last!.fields(this, spot);
+  }
+
+  type = (key: string, text: string) => this.values.type(key, text, (value) => this.picks.last?.admits?.(key, value) ?? true);
+
+  takes = (item: Item) => (this.step ?? this.picks.last)?.takes?.(this, item) ?? false;
+
+  private click(spot: Spot): void {
+    const { step } = this;
+    if (step) {
+      const found = step.pick(this, spot);
+      if (found) this.picked.push(found);
+      this.sheet.redraw();
+      if (!found || this.step || this.picks.last) return;
+    }
+    void this.make(spot);
+  }
+
+  private async make(spot: Spot): Promise<void> {
+    const { picked } = this, actions = this.picks.actions(this, spot), { bench } = this.sheet;
+    if (!actions) {
+      if (!this.picks.last) picked.splice(-1);
+      return;
+    }
+    this.picked = [];
+    const made = await this.sheet.act([...picked.flatMap(({ before }) => before), ...actions]);
+    if (made) {
+      if (!this.picked.length) this.values.clear();
+      if (made.length) bench.select({ kind: this.picks.makes, name: made[made.length - 1] });
+    } else if (!this.picked.length) this.picked = this.picks.last ? picked : picked.slice(0, -1);
+    this.sheet.redraw();
+  }
+
+  draw(over: Overlay): void {
+    this.picks.draw(over, this, this.sheet.spot);
+  }
+
+  leave(): void {
+    this.values.clear();
+    this.clicks.drop();
+    this.picked = [];
+  }
+}
+
+export const picking = (picks: Picks): MakeTool => (sheet) => new PickTool(sheet, picks);

@@ -1,0 +1,86 @@
+// Pivot: a click sets one, on a joint it fixes it, on a pivot it frees it.
+import { Clicks, freshPoint, pointAt, TypedValues } from "./hand";
+import { joint } from "./marks";
+import type { MakeTool, Overlay, Sheet, Spot, Tool } from "./tool";
+import type { Vec } from "../../shapes";
+
+class PivotTool implements Tool {
+  readonly name = "pivot";
+  private readonly clicks = new Clicks((spot) => this.click(spot));
+  private readonly values: TypedValues;
+  /** Names of pivots that are not in the drawing yet. */
+  private readonly coming = new Set<string>();
+
+  constructor(private readonly sheet: Sheet) {
+    this.values = new TypedValues(sheet.bench, { x: "length", y: "length" });
+  }
+
+  hint(): [string] {
+    return ["hint.pivot"];
+  }
+
+  down = (spot: Spot) => this.clicks.down(spot);
+
+  move(spot: Spot): void {
+    this.clicks.move(spot);
+    this.sheet.redraw();
+  }
+
+  up = (spot: Spot) => this.clicks.up(spot);
+
+  enter(): void {
+    if (this.sheet.spot) this.click(this.sheet.spot);
+  }
+
+  escape(): boolean {
+    this.clicks.drop();
+    return this.values.clear();
+  }
+
+  fields() {
+    const [x, y] = this.sheet.spot ? this.place(this.sheet.spot) : [0, 0];
+    return [this.values.field("x", x, { quiet: true }), this.values.field("y", y, { quiet: true })];
+  }
+
+  type = (key: string, text: string) => this.values.type(key, text);
+
+  takes = ({ kind }: { kind: string }) => kind === "point" || kind === "link";
+
+  private place({ place: [x, y] }: Spot): Vec {
+    return [this.values.value("x") ?? x, this.values.value("y") ?? y];
+  }
+
+  private click(spot: Spot): void {
+    const { scene } = this.sheet, point = this.values.any ? null : pointAt(spot, scene);
+    if (point) {
+      void this.sheet.act([{ do: "fix", point, fixed: !scene.points.get(point)!.fixed }]);
+      this.sheet.bench.select({ kind: "point", name: point });
+      return;
+    }
+    const name = freshPoint(scene, true, this.coming), at = this.place(spot), { snap } = spot;
+    const on = snap?.kind === "link" && !this.values.any ? snap.name : null;
+    this.values.clear();
+    void this.make(name, on ? [{ do: "add_point", link: on, point: name, at }, { do: "fix", point: name, fixed: true }] : [{ do: "point", name, at, fixed: true }]);
+  }
+
+  private async make(name: string, actions: Parameters<Sheet["act"]>[0]): Promise<void> {
+    this.coming.add(name);
+    if (await this.sheet.act(actions)) this.sheet.bench.select({ kind: "point", name });
+    this.coming.delete(name);
+  }
+
+  draw(over: Overlay): void {
+    const { spot, camera, scene } = this.sheet;
+    if (!spot || (!this.values.any && pointAt(spot, scene))) return;
+    const [x, y] = camera.screen(this.place(spot));
+    over.path(`M${x} ${y}L${x - 9} ${y + 16}H${x + 9}ZM${x - 15} ${y + 16}H${x + 15}`, "ghost");
+    joint(over, [x, y], "ghost pin");
+  }
+
+  leave(): void {
+    this.values.clear();
+    this.clicks.drop();
+  }
+}
+
+export const makePivot: MakeTool = (sheet) => new PivotTool(sheet);
