@@ -40,7 +40,7 @@ class LinkTool implements Tool {
   }
 
   escape(): boolean {
-    this.clicks.drop();
+    if (this.clicks.drop()) return true;
     if (this.values.clear()) return true;
     return this.drop();
   }
