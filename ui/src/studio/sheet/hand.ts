@@ -1,8 +1,8 @@
 // The values in hand: a small panel at the cursor whose numbers can be typed; at the foot of the sheet on a phone.
 import { pretty } from "./names";
 import type { Board } from "./sheet";
-import { shown, typed } from "./units";
 import type { Field } from "../tools/tool";
+import { shown, typed } from "../tools/typed";
 import type { Vec } from "../../shapes";
 
 // How far the panel stays from the point in hand and from the edges of the sheet, px.
@@ -94,7 +94,7 @@ export class Hand {
 
   /** Gives the tool what is typed, with its unit; what cannot be read is said at the field. */
   private take(field: Field, text: string): void {
-    const { bench, tool } = this.board, found = text.trim() ? typed(text, field.quantity, bench.settings.value.unit) : "";
+    const { bench, tool } = this.board, found = text.trim() ? (typed(text, field.quantity, bench.settings.value.unit)?.text ?? null) : "";
     const wrong = found === null ? bench.say("sheet.unreadable", { text }) : (tool.type?.(field.key, found) ?? null);
     this.error.textContent = wrong ?? "";
     this.inputs[this.fields.findIndex(({ key }) => key === field.key)]?.field.setAttribute("aria-invalid", String(wrong !== null));
@@ -142,16 +142,16 @@ export class Hand {
   }
 
   private fill(field: Field, { box, field: input, unit }: Input): void {
-    const now = typeof field.value === "number" ? shown(field.value, field.quantity, this.board.bench.settings.value.unit) : { number: field.value, unit: "" };
+    const [number, symbol] = typeof field.value === "number" ? shown(field.value, field.quantity, this.board.bench.settings.value.unit) : [field.value, ""];
     const fixed = field.text !== null;
     box.classList.toggle("fixed", fixed);
-    if (document.activeElement !== input && !fixed && input.value !== now.number) input.value = now.number;
-    if (document.activeElement === input && !fixed && input.value && input.getAttribute("aria-invalid") !== "true" && input.value !== now.number) {
+    if (document.activeElement !== input && !fixed && input.value !== number) input.value = number;
+    if (document.activeElement === input && !fixed && input.value && input.getAttribute("aria-invalid") !== "true" && input.value !== number) {
       const all = input.selectionStart === 0 && input.selectionEnd === input.value.length;
-      input.value = now.number;
+      input.value = number;
       if (all) input.select();
     }
-    if (unit.textContent !== now.unit) unit.textContent = now.unit;
+    if (unit.textContent !== symbol) unit.textContent = symbol;
   }
 
   /** Beside a place of the sheet, never over it, inside of the sheet. */

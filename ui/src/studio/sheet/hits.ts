@@ -1,10 +1,10 @@
 // What is under the pointer, in the order of selection: heads of loads, joints, points, dimensions, links.
-import { type Load, off, reach } from "../../drawn_loads";
 import type { Vec } from "../../shapes";
 import { hull } from "../../strokes";
 import type { Item } from "../bench";
 import type { Camera } from "./camera";
 import { dist, inside, nearestOn } from "./geometry";
+import { type DrawnLoad, offLoad } from "./loads";
 import type { Scene } from "./scene";
 
 /** How near the pointer must come, px: a mouse, a finger. */
@@ -16,12 +16,12 @@ const BLOCK: Vec = [15, 9];
 export type Marks = Map<string, Vec>;
 
 /** The elements under a place of the screen; a click takes the first, another click there the next. */
-export function under(screen: Vec, scene: Scene, camera: Camera, near: number, marks: Marks = new Map()): Item[] {
+export function under(screen: Vec, scene: Scene, camera: Camera, near: number, loads: DrawnLoad[] = [], marks: Marks = new Map()): Item[] {
   const found: { rank: number; far: number; item: Item }[] = [];
   const add = (rank: number, far: number, item: Item, most = near) => {
     if (far <= most) found.push({ rank, far, item });
   };
-  for (const [name, load] of Object.entries(scene.loads)) add(0, loadDistance(screen, load, scene, camera), { kind: "load", name });
+  for (const load of loads) add(0, offLoad(screen, load), { kind: "load", name: load.name });
   for (const { name, at, fixed, links } of scene.points.values())
     add(fixed || links.length > 1 ? 1 : 2, dist(screen, camera.screen(at)), { kind: "point", name });
   for (const [name, at] of marks) add(3, dist(screen, at) / 2, { kind: "dimension", name });
@@ -41,19 +41,6 @@ export function linkDistance(screen: Vec, scene: Scene, camera: Camera, link: st
   let best = Infinity;
   for (let k = 0; k < around.length; k++) best = Math.min(best, dist(screen, nearestOn(screen, around[k], around[(k + 1) % around.length]).at));
   return around.length > 2 && inside(screen, around) ? Math.min(best, 4) : best;
-}
-
-function loadDistance(screen: Vec, load: Load, scene: Scene, camera: Camera): number {
-  const place = (point: string) => {
-    const at = scene.at(point);
-    return at && camera.screen(at);
-  };
-  const middle = (link: string) => {
-    const corners = scene.corners(link);
-    return corners.length ? camera.screen([0, 1].map((k) => corners.reduce((sum, each) => sum + each[k], 0) / corners.length) as Vec) : null;
-  };
-  const ends = reach(load, place, middle);
-  return ends ? off(screen, load, ends) : Infinity;
 }
 
 /** The elements in a box of the screen: all of each inside, or touched. */

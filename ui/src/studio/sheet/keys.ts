@@ -1,7 +1,7 @@
-// Keys on the sheet: camera, selection, the cross of the keyboard, digits for the values in hand, and the tools' letters.
+// Keys on the sheet: camera, selection, the cross of the keyboard, digits for the values in hand.
 import type { Vec } from "../../shapes";
-import { type Item, same, TOOLS } from "../bench";
-import { KEYS } from "../tools/tool";
+import { type Item, same } from "../bench";
+import { writes } from "../frame/keys";
 import type { Hand } from "./hand";
 import type { Pointers } from "./pointer";
 import { copy, cut, duplicate, erase, everything, mirror, nudge, paste } from "./selection";
@@ -32,7 +32,7 @@ export class Keys {
   /** True where the key meant something. */
   private down(event: KeyboardEvent): boolean {
     const { board } = this, { key } = event, onSheet = document.activeElement === board.host || document.activeElement === document.body;
-    if (event.ctrlKey || event.metaKey) return this.command(key.toLowerCase(), event.shiftKey);
+    if (event.ctrlKey || event.metaKey) return this.command(key.toLowerCase());
     if (key === "Escape") return this.escape();
     if (key === " ") return onSheet && this.space(event.repeat);
     if (key in WAYS) return onSheet && this.arrow(WAYS[key], event);
@@ -51,22 +51,17 @@ export class Keys {
       case "0": return (board.full(), true);
       case "[": case "]": return onSheet && this.walk(key === "]" ? 1 : -1);
     }
-    if (event.shiftKey || event.altKey) return false;
-    const tool = TOOLS.find((each) => KEYS[each] === key.toUpperCase());
-    if (tool) board.take(tool);
-    return tool !== undefined;
+    return false;
   }
 
-  private command(key: string, shift: boolean): boolean {
-    const { board } = this, { history } = board.bench.desk;
+  private command(key: string): boolean {
+    const { board } = this;
     switch (key) {
       case "a": return everything(board);
       case "c": return copy(board);
       case "x": return cut(board);
       case "v": return paste(board);
       case "d": return duplicate(board);
-      case "z": return (shift ? history.redo() : history.undo(), true);
-      case "y": return (history.redo(), true);
       default: return false;
     }
   }
@@ -153,5 +148,5 @@ export class Keys {
 
 /** Whether a key is for what is written or chosen elsewhere. */
 function elsewhere({ target }: KeyboardEvent): boolean {
-  return target instanceof Element && target.closest("input:not([type=range], [type=checkbox]), textarea, select, [contenteditable], dialog, [role=menu], [role=dialog], [role=listbox]") !== null;
+  return writes(target) || (target instanceof Element && target.closest("dialog, [role=menu], [role=dialog], [role=listbox]") !== null);
 }

@@ -2,10 +2,10 @@
 import type { Vec } from "../../shapes";
 import { away, far, hull, line, unit as along } from "../../strokes";
 import type { Item } from "../bench";
+import { reads } from "../tools/typed";
 import { dist } from "./geometry";
 import type { Pencil } from "./overlay";
 import type { Board } from "./sheet";
-import { length } from "./units";
 
 /** Where the texts of lengths stand on the screen, by the address of the dimension. */
 export type Placed = Map<string, Vec>;
@@ -51,7 +51,7 @@ function lengths({ scene, camera, bench, measured }: Board, above: Pencil, place
     if (points.length !== 2 || !a || !b || !(all || moved)) continue;
     const [p, q] = [camera.screen(a), camera.screen(b)];
     if (far(p, q) < LEAST) continue;
-    const side = outer(p, q, middle), text = length(dist(a, b), unit), on = moved || bench.has({ kind: "link", name }) || bench.has({ kind: "dimension", name: `${name}.length` });
+    const side = outer(p, q, middle), text = reads(dist(a, b), "length", unit), on = moved || bench.has({ kind: "link", name }) || bench.has({ kind: "dimension", name: `${name}.length` });
     above.dimension(p, q, text, on ? "hand" : "soft", 24 * side);
     const u = along(p, q);
     placed.set(`${name}.length`, [(p[0] + q[0]) / 2 + 24 * side * u[1], (p[1] + q[1]) / 2 - 24 * side * u[0]]);

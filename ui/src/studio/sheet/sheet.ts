@@ -12,6 +12,7 @@ import { Camera, FULL } from "./camera";
 import { heading } from "./geometry";
 import { Grid, spacing } from "./grid";
 import { FINGER, NEAR, under } from "./hits";
+import { type DrawnLoad, drawnLoads, Stand } from "./loads";
 import { drawMarks, type Placed } from "./marks";
 import { pointWords, spoken } from "./names";
 import { Pencil } from "./overlay";
@@ -49,6 +50,8 @@ export class Board implements Sheet {
   private readonly machine: HTMLElement;
   private readonly ends: (() => void)[] = [];
   private known: Scene | null = null;
+  /** What could be drawn of the text that was solved last. */
+  private own: Picture | undefined;
   private fitting = true;
   private stale = { waiting: false, all: true };
   private seen = "";
@@ -70,9 +73,10 @@ export class Board implements Sheet {
       if (bench.tool.value !== this.tool.name) this.begin(bench.tool.value);
     });
     this.follow(() => {
-      void [bench.session.value?.version.value, page.phase.value, bench.settings.value, desk.drawn.value, desk.text.value, page.language.value];
+      void [bench.session.value?.version.value, page.phase.value, bench.settings.value, desk.text.value, page.language.value];
       const { picture, model, text } = desk.solved.value;
       if (!picture && !model && text === undefined) this.fitting = true;
+      if (text === desk.text.value) this.own = picture;
       this.touch();
     });
     this.follow(() => {
@@ -104,16 +108,15 @@ export class Board implements Sheet {
 
   /** What can be drawn of the text as it is now, as far as that is known. */
   get picture(): Picture | undefined {
-    const { drawn, solved, text } = this.bench.desk;
-    return drawn.value?.text === text.value ? drawn.value.picture : solved.value.picture;
+    return this.bench.desk.solved.value.picture;
   }
 
   /** What the machine that is shown was made of: the present text, or one to which there have only been additions. */
   private get base(): { session: Session; added: Picture | null } | null {
-    const session = this.bench.session.value, { desk } = this.bench, { picture } = desk.solved.value, now = this.picture;
+    const session = this.bench.session.value, { own, picture: now } = this;
     if (!session) return null;
-    if (!now || now === picture || !picture) return { session, added: null };
-    return grown(picture, now) ? { session, added: picture } : null;
+    if (!now || now === own || !own) return { session, added: null };
+    return grown(own, now) ? { session, added: own } : null;
   }
 
   get scene(): Scene {
@@ -148,6 +151,12 @@ export class Board implements Sheet {
   loose(name: string): boolean {
     const point = this.scene.points.get(name);
     return point?.links.length === 1 && !point.fixed && !this.scene.guided.includes(name) && this.scene.links[point.links[0]].length === 2;
+  }
+
+  /** Loads as they are drawn now. */
+  get loads(): DrawnLoad[] {
+    const session = this.solved;
+    return this.bench.shows("loads") ? drawnLoads(new Stand(this.scene, this.picture, session, session ? this.place : 0), this.camera) : [];
   }
 
   /** A place on the grid, unless it is held off. */
@@ -269,7 +278,12 @@ export class Board implements Sheet {
   }
 
   fitSelection(): void {
-    const all = this.bench.selection.value.flatMap(({ kind, name }) => (kind === "link" ? this.scene.corners(name) : [this.scene.at(name)])).filter((each) => each !== null);
+    this.reveal(this.bench.selection.value);
+  }
+
+  /** Puts elements into the middle of the sheet. */
+  reveal(items: Item[]): void {
+    const all = items.flatMap(({ kind, name }) => (kind === "link" ? this.scene.corners(name) : [this.scene.at(name)])).filter((each) => each !== null);
     if (!all.length) return this.fit();
     const xs = all.map(([x]) => x), ys = all.map(([, y]) => y), room = all.length > 1 ? 0 : 0.05;
     this.camera.fit([Math.min(...xs) - room, Math.min(...ys) - room, Math.max(...xs) + room, Math.max(...ys) + room], 0.25 * Math.min(...this.camera.size));
@@ -292,7 +306,7 @@ export class Board implements Sheet {
       say: (kind, values = {}) => bench.say(`sheet.snap_${kind}`, values), named: (point) => pointWords(bench, scene, point),
     });
     return {
-      screen, free, place: found?.at ?? free, snap: found, under: under(screen, scene, camera, near, this.placed),
+      screen, free, place: found?.at ?? free, snap: found, under: under(screen, scene, camera, near, this.loads, this.placed),
       shift: keys.shiftKey, alt: keys.altKey, touch,
     };
   }

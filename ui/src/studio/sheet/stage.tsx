@@ -14,10 +14,11 @@ export function Stage({ bench }: { bench: Bench }) {
   useLayoutEffect(() => {
     const made = new Board(bench, host.current!), hand = new Hand(made, stage.current!), keys = new Keys(made, hand, new Pointers(made));
     made.drawn = () => hand.draw();
-    bench.sheet.value = made;
+    bench.sheet.value = bench.view = made;
+    bench.reveal = (items) => made.reveal(items);
     setBoard(made);
     return () => {
-      bench.sheet.value = null;
+      bench.sheet.value = bench.view = null;
       keys.end();
       hand.end();
       made.end();
