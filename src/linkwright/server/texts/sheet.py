@@ -25,7 +25,6 @@ SHEET: dict[str, Message] = {
     "sheet.snap_vertical": _("Vertical"),
     "sheet.snap_square_to": _("Square to {name}"),
     "sheet.snap_parallel_to": _("Parallel to {name}"),
-    "sheet.snap_steps": "{angle}",
     "sheet.snap_kept": _("Direction held, {angle}"),
     "sheet.set": pgettext("value", "Set"),
     "sheet.key_next": pgettext("key", "next"),

@@ -52,7 +52,7 @@ export class Hand {
   }
 
   get fields(): Field[] {
-    return this.board.tool.fields?.() ?? [];
+    return (this.board.tool.fields?.() ?? []).filter(({ quiet, text }) => !quiet || text !== null);
   }
 
   /** Takes the first of what is typed; true where there is a field for it. */
@@ -113,7 +113,7 @@ export class Hand {
     if (known !== this.known) this.build(fields);
     this.known = known;
     fields.forEach((field, k) => this.fill(field, this.inputs[k]));
-    const snapped = spot?.snap?.sentence ?? "";
+    const snapped = board.tool.note?.() || (spot?.snap?.sentence ?? "");
     if (this.title.textContent !== snapped) this.title.textContent = snapped;
     this.title.hidden = !snapped;
     if (spot) this.put(spot.screen);

@@ -53,6 +53,8 @@ export class Board implements Sheet {
   /** What could be drawn of the text that was solved last. */
   private own: Picture | undefined;
   private fitting = true;
+  /** Whether the sheet shows all as it did when the file was opened: it goes on to while regions about it take their places. */
+  private whole = true;
   private stale = { waiting: false, all: true };
   private seen = "";
 
@@ -195,6 +197,7 @@ export class Board implements Sheet {
     if (camera.size[0] < 1) return;
     if (this.fitting && bench.desk.solved.value.text === bench.desk.text.value) {
       this.fitting = false;
+      this.whole = true;
       this.fit();
     }
     if (this.stale.all) this.drawAll();
@@ -251,16 +254,19 @@ export class Board implements Sheet {
     if (w < 1 || h < 1) return;
     if (!this.seen) this.camera.origin = [Math.round(0.4 * w), Math.round(0.6 * h)];
     this.camera.size = [w, h];
+    if (this.whole) this.fit();
     this.touch();
   }
 
   zoom(factor: number, at?: Vec): void {
     const [w, h] = this.camera.size;
+    this.whole = false;
     this.camera.zoom(factor, at ?? [w / 2, h / 2]);
     this.touch();
   }
 
   pan(dx: number, dy: number): void {
+    this.whole = false;
     this.camera.pan(dx, dy);
     this.touch();
   }
@@ -285,6 +291,7 @@ export class Board implements Sheet {
   reveal(items: Item[]): void {
     const all = items.flatMap(({ kind, name }) => (kind === "link" ? this.scene.corners(name) : [this.scene.at(name)])).filter((each) => each !== null);
     if (!all.length) return this.fit();
+    this.whole = false;
     const xs = all.map(([x]) => x), ys = all.map(([, y]) => y), room = all.length > 1 ? 0 : 0.05;
     this.camera.fit([Math.min(...xs) - room, Math.min(...ys) - room, Math.max(...xs) + room, Math.max(...ys) + room], 0.25 * Math.min(...this.camera.size));
     this.touch();
@@ -303,7 +310,7 @@ export class Board implements Sheet {
     const found = keys.altKey || !settings.snap ? null : snap(free, {
       scene, camera, anchor, avoid: tool.avoid?.() ?? [], grid: this.step, reach: touch ? FINGER : REACH,
       keep: keys.shiftKey && anchor && before ? (this.kept ??= heading(anchor, before.place)) : (this.kept = null),
-      say: (kind, values = {}) => bench.say(`sheet.snap_${kind}`, values), named: (point) => pointWords(bench, scene, point),
+      say: bench.say, named: (point) => pointWords(bench, scene, point),
     });
     return {
       screen, free, place: found?.at ?? free, snap: found, under: under(screen, scene, camera, near, this.loads, this.placed),
@@ -339,6 +346,7 @@ export class Board implements Sheet {
 
   async act(actions: Action[]): Promise<string[] | null> {
     const { bench, tool } = this, { desk, page } = bench;
+    this.whole = false;
     const made = await desk.act(actions);
     if (made) bench.set({ used: { ...bench.settings.value.used, [tool.name]: (bench.settings.value.used[tool.name] ?? 0) + 1 } });
     else if (page.note.value) this.say(page.note.value);

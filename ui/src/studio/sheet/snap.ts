@@ -19,7 +19,7 @@ export interface Around {
   keep: number | null;
   grid: number;
   reach: number;
-  say: (kind: string, values?: Record<string, string>) => string;
+  say: (key: string, values?: Record<string, string>) => string;
   named: (point: string) => string;
 }
 
@@ -51,7 +51,7 @@ function ofLength(free: Vec, around: Around): Snap | null {
     const own = dist(corners[0], corners[1]), off = Math.abs(own - length) * around.camera.scale;
     if (off < best && own > 0) {
       const way = liked(free, around)?.angle ?? angle;
-      [best, found] = [off, { kind: "length", sentence: around.say("as_long", { name: link }), at: plus(anchor, polar(own, way)), name: link }];
+      [best, found] = [off, { kind: "length", sentence: around.say("sheet.snap_as_long", { name: link }), at: plus(anchor, polar(own, way)), name: link }];
     }
   }
   return found;
@@ -65,7 +65,7 @@ function onLink(free: Vec, around: Around): Snap | null {
     if (corners.length < 2 || scene.links[link].some((each) => avoid.includes(each))) continue;
     for (let k = 0; k < (corners.length > 2 ? corners.length : 1); k++) {
       const { at, share } = nearestOn(free, corners[k], corners[(k + 1) % corners.length]), far = pixels(around, free, at);
-      if (share > 0 && share < 1 && far < best) [best, found] = [far, { kind: "link", sentence: around.say("on_link", { name: link }), at, name: link }];
+      if (share > 0 && share < 1 && far < best) [best, found] = [far, { kind: "link", sentence: around.say("sheet.snap_on_link", { name: link }), at, name: link }];
     }
   }
   return found;
@@ -82,18 +82,18 @@ function liked(free: Vec, around: Around): { angle: number; sentence: string; na
   };
   const nearest = STEP * Math.round(angle / STEP), square = Math.abs(Math.sin(2 * nearest)) < SAME;
   if (square && away(nearest) <= DIRECTION)
-    return { angle: nearest, sentence: around.say(Math.abs(Math.sin(nearest)) < 0.5 ? "horizontal" : "vertical"), name: "", kind: "line" };
+    return { angle: nearest, sentence: around.say(Math.abs(Math.sin(nearest)) < 0.5 ? "sheet.snap_horizontal" : "sheet.snap_vertical"), name: "", kind: "line" };
   for (const link of Object.keys(scene.links)) {
     const corners = scene.corners(link);
     if (corners.length !== 2 || scene.links[link].some((each) => avoid.includes(each))) continue;
     const own = heading(corners[0], corners[1]);
     for (let k = 0; k < 4; k++) {
       const way = own + (k * Math.PI) / 2;
-      if (away(way) <= DIRECTION / 2) return { angle: way, sentence: around.say(k % 2 ? "square_to" : "parallel_to", { name: link }), name: link, kind: "line" };
+      if (away(way) <= DIRECTION / 2) return { angle: way, sentence: around.say(k % 2 ? "sheet.snap_square_to" : "sheet.snap_parallel_to", { name: link }), name: link, kind: "line" };
     }
   }
   if (away(nearest) > DIRECTION) return null;
-  return { angle: nearest, sentence: around.say("steps", { angle: `${Math.round((nearest * 180) / Math.PI)}°`.replace("-", "−") }), name: "", kind: "angle" };
+  return { angle: nearest, sentence: `${Math.round((nearest * 180) / Math.PI)}°`.replace("-", "−"), name: "", kind: "angle" };
 }
 
 function inDirection(free: Vec, around: Around): Snap | null {
@@ -110,7 +110,7 @@ function along(anchor: Vec, free: Vec, angle: number, grid: number): Vec {
 
 function held(free: Vec, around: Around): Snap {
   const angle = around.keep!, at = along(around.anchor!, free, angle, around.grid);
-  return { kind: "angle", sentence: around.say("kept", { angle: `${Math.round((angle * 1800) / Math.PI) / 10}°`.replace("-", "−") }), at, name: "" };
+  return { kind: "angle", sentence: around.say("sheet.snap_kept", { angle: `${Math.round((angle * 1800) / Math.PI) / 10}°`.replace("-", "−") }), at, name: "" };
 }
 
 function onGrid(free: Vec, { grid }: Around): Snap | null {

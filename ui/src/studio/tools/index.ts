@@ -2,6 +2,7 @@
 import type { ToolName } from "../bench";
 import { makeErase } from "./erase";
 import { makeMove } from "./move";
+import { SHAPES } from "./shapes";
 import type { MakeTool } from "./tool";
 
 /** Stands in for a tool that is not there: it is chosen, and does nothing. */
@@ -9,40 +10,13 @@ const missing = (name: ToolName): MakeTool => () => ({ name, hint: () => [`tool.
 
 export const MAKE: Record<ToolName, MakeTool> = {
   move: makeMove,
-
-  pivot: missing("pivot"),
-
-  link: missing("link"),
-
-  plate: missing("plate"),
-
-  slider: missing("slider"),
-
-  slot: missing("slot"),
-
-  weld: missing("weld"),
-
-  gears: missing("gears"),
-
-  rack: missing("rack"),
-
-  cam: missing("cam"),
-
+  ...SHAPES,
   drive: missing("drive"),
-
   force: missing("force"),
-
   torque: missing("torque"),
-
   spring: missing("spring"),
-
   mass: missing("mass"),
-
-  dimension: missing("dimension"),
-
   target: missing("target"),
-
   photo: missing("photo"),
-
   erase: makeErase,
 };
