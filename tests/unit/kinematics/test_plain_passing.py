@@ -8,8 +8,7 @@ from tests.failures.limited_machines import fourbar
 
 import linkwright as lw
 from linkwright.kinematics.passing import plainly_passed
-from linkwright.mechanism.cycle import Cycle
-from linkwright.mechanism.mechanism import Mechanism
+from linkwright.mechanism.mechanism import Cycle, Mechanism
 
 PASSED = (
     "crank_rocker",

@@ -99,7 +99,7 @@ class DimensionTool implements Tool {
   }
 
   escape(): boolean {
-    if (this.clicks.drop()) return true;
+    this.clicks.drop();
     const back = this.values.clear() || this.stands !== null || this.picked.splice(-1).length > 0;
     this.stands = null;
     this.sheet.redraw();

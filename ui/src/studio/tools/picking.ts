@@ -84,7 +84,7 @@ class PickTool implements Tool, Hand {
   }
 
   escape(): boolean {
-    if (this.clicks.drop()) return true;
+    this.clicks.drop();
     const back = this.values.clear() || this.picked.length > 0 && this.picked.splice(-1).length > 0;
     this.sheet.redraw();
     return back;

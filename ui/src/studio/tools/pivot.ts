@@ -33,7 +33,7 @@ class PivotTool implements Tool {
   }
 
   escape(): boolean {
-    if (this.clicks.drop()) return true;
+    this.clicks.drop();
     return this.values.clear();
   }
 

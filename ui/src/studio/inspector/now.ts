@@ -1,0 +1,47 @@
+// What the machine does at the position that is shown, for panes that are read and not followed by the eye.
+import { useEffect, useState } from "preact/hooks";
+import type { Vec } from "../../shapes";
+import type { Bench } from "../bench";
+
+/** While it plays, numbers change as often as this, ms. */
+const PACE = 120;
+
+/** The position that is shown, the machine's rows there; renders again as often as can be read. */
+export function useNow(bench: Bench): number {
+  const [, again] = useState(0), session = bench.session.value;
+  void session?.calm.value;
+  useEffect(() => {
+    let timer = 0;
+    const look = () => (timer ||= window.setTimeout(() => {
+      timer = 0;
+      again((count) => count + 1);
+    }, PACE));
+    const ends = [bench.page.phase.subscribe(look), session?.version.subscribe(look)];
+    return () => {
+      for (const end of ends) end?.();
+      window.clearTimeout(timer);
+    };
+  }, [session]);
+  return session ? bench.page.index(session) : 0;
+}
+
+/** The key of a point among the rows of the machine, by its name in the text. */
+export function keyOf(bench: Bench, name: string): string | null {
+  const { value: session } = bench.session, links = bench.desk.solved.value.picture?.links ?? {};
+  const keys = session?.data.points.map(({ key }) => key) ?? [];
+  const own = Object.keys(links).filter((link) => links[link].includes(name)).map((link) => `${link}.${name}`);
+  return [name, ...own, `frame.${name}`].find((key) => keys.includes(key)) ?? null;
+}
+
+/** Where a point is at a position, m. */
+export function placeOf(bench: Bench, name: string, index: number): Vec | null {
+  const { value: session } = bench.session, key = keyOf(bench, name);
+  if (session && key) return ["x", "y"].map((axis) => session.model.main.row(`p:${key}.${axis}`)[index]) as Vec;
+  return bench.desk.solved.value.picture?.points[name] ?? null;
+}
+
+/** A row of numbers of the machine at a position; NaN where it has none. */
+export function rowAt(bench: Bench, id: string, index: number): number {
+  const { value: session } = bench.session;
+  return session && id in session.model.signals ? session.model.row(id)[index] : NaN;
+}
