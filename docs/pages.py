@@ -237,7 +237,7 @@ def section_body(schema: Mapping[str, Any], language: str) -> Iterator[str]:
     inner = schema.get("additionalProperties")
     if isinstance(inner, Mapping) and ("properties" in inner or "oneOf" in inner):
         schema = inner
-    kinds = schema.get("oneOf") or ([schema] if "properties" in schema else [])
+    kinds = [each for each in schema.get("oneOf", [schema]) if "properties" in each]
     for kind in kinds:
         if len(kinds) > 1:
             yield f"### {kind.get('title') or ', '.join(kind['properties'])}\n"

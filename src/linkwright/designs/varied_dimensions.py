@@ -18,6 +18,7 @@ from linkwright import units
 from linkwright.core.arguments import one_or_more, require
 from linkwright.core.arrays import Floats
 from linkwright.designs.ranges import Range, dimension_of, parse_range
+from linkwright.drivers.rocking import Rocking
 from linkwright.errors import LinkwrightError, QuantityError, RequestError, with_remedy
 from linkwright.files.write import Document
 from linkwright.joints.toothed import Numbers, is_integer
@@ -229,6 +230,17 @@ def refuse_moved_positions(mechanism: Mechanism, positions: Positions, columns: 
                 continue
             if not _same(mechanism, positions, moved):
                 wheels = mechanism.cycle is None and changed.drivers == mechanism.drivers
+                if mechanism.cycle is not None and mechanism.cycle.rock is not None:
+                    raise RequestError(
+                        _(
+                            "{address} changes the limits between which the driver rocks, so that the positions of "
+                            "the input differ from design to design; write the same ends for all into the file, "
+                            "such as cycle: {{rock: [{low}, {high}]}}",
+                            code="study.moves_limits",
+                            address=address,
+                            **_rock_ends(mechanism),
+                        )
+                    )
                 raise RequestError(
                     _(
                         "{address} changes after how many turns all wheels are back, so that the cycles differ "
@@ -244,6 +256,17 @@ def refuse_moved_positions(mechanism: Mechanism, positions: Positions, columns: 
                         address=address,
                     )
                 )
+
+
+def _rock_ends(mechanism: Mechanism) -> dict[str, str]:
+    """Ends a little within those of a driver that rocks, as a file has them."""
+    (driver,) = mechanism.drivers.values()
+    ends = driver.law.ends if isinstance(driver.law, Rocking) else None
+    low, high = ends or (-0.5, 0.5)
+    inner = (low + 0.05 * (high - low), high - 0.05 * (high - low))
+    if driver.law.rotary:
+        return {name: f"{math.degrees(each):.0f} deg" for name, each in zip(("low", "high"), inner, strict=True)}
+    return {name: f"{1e3 * each:.4g} mm" for name, each in zip(("low", "high"), inner, strict=True)}
 
 
 def _same(mechanism: Mechanism, a: Positions, b: Positions) -> bool:

@@ -63,9 +63,19 @@ class Law(ABC):
         return np.empty(0)
 
     @property
+    def own(self) -> Law:
+        """The law that the file gives, in whatever cycle."""
+        return self
+
+    @property
     def constant_speed(self) -> float | None:
         """The speed of a law q = start + speed t, rad/s or m/s; None for another."""
         return None
+
+    @property
+    def placeable(self) -> bool:
+        """Whether a coordinate has a time, that of ``time_at``."""
+        return self.constant_speed is not None
 
     def time_at(self, coordinate: Array | float) -> Array:
         """The times (s) at which a law of constant speed has coordinates; 0 where it rests."""

@@ -16,6 +16,7 @@ from linkwright.core.expression_tree import Binary, Call, Negative, Node, Number
 from linkwright.drivers.base import Law
 from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.drivers.expression import ExpressionLaw
+from linkwright.drivers.rocking import Harmonic, Rocking
 from linkwright.drivers.table import TableLaw
 from linkwright.errors import LinkwrightError
 from linkwright.exporters.results import Results
@@ -256,6 +257,16 @@ def law_text(law: Law, begin: float, end: float) -> str:
 @law_text.register
 def _constant_speed(law: ConstantSpeed, begin: float, end: float) -> str:
     return f"{number(law.start)} + ({number(law.speed)})*time"
+
+
+@law_text.register
+def _rocking(law: Rocking, begin: float, end: float) -> str:
+    return law_text(law.course, begin, end)
+
+
+@law_text.register
+def _harmonic(law: Harmonic, begin: float, end: float) -> str:
+    return f"{number(law.middle)} - ({number(law.swing)})*cos({number(law.pulsation)}*time)"
 
 
 @law_text.register

@@ -19,8 +19,9 @@ from linkwright.files.read_drivers import CYCLE_FORMS, SLIDE_FIELDS, TURN_FIELDS
 from linkwright.files.read_model import FORMAT, HEADER, read_model
 from linkwright.files.source import ENDINGS, GALLERY, gallery_names, read_source
 from linkwright.joints.base import JOINTS
+from linkwright.mechanism.cycle import ROCK, Cycle
 from linkwright.mechanism.link import FRAME_FIELDS, LINK_FIELDS
-from linkwright.mechanism.mechanism import Cycle, Mechanism
+from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -134,7 +135,10 @@ def json_schema() -> Schema:
         "drawing": (Coordinates().shape(), _("coordinates of the assembled drawing, in frame axes")),
         "driver": (drivers, _("the one driver")),
         "drivers": (_named(drivers), _("several drivers by name")),
-        "cycle": (_cycle(), _("what one cycle is (default: one turn of the driver)")),
+        "cycle": (
+            _cycle(),
+            _("what one cycle is (default: one turn of the driver); rock: to and fro between the driver's limits"),
+        ),
         "loads": (_named({"oneOf": [load.schema() for load in LOADS.values()]}), _("loads by name")),
         "outputs": (_named({"type": "string"}), _("formulas of places and rates with names of their own")),
     }
@@ -175,5 +179,5 @@ def _drivers() -> list[Schema]:
 
 def _cycle() -> Schema:
     fields = Cycle.fields("angle")
-    forms = [{key: replace(fields[key], required=True) for key in form} for form in CYCLE_FORMS]
-    return {"type": "object", "oneOf": [table_schema(form) for form in forms]}
+    forms = [{key: replace(fields[key], required=key != "margin") for key in form} for form in CYCLE_FORMS]
+    return {"oneOf": [*(table_schema(form) for form in forms), {"const": ROCK}]}

@@ -17,9 +17,9 @@ from linkwright.fields.references import LinkName
 from linkwright.files.node_reader import NAME, as_meant
 from linkwright.files.reader import Reader
 from linkwright.joints.base import Joint, JointName
-from linkwright.mechanism.mechanism import Cycle
+from linkwright.mechanism.cycle import LIMITS, ROCK, Cycle
 from linkwright.registry import nearest
-from linkwright.words import _
+from linkwright.words import Message, _
 from linkwright.words.message import together
 
 TURN_FIELDS: Mapping[str, Field] = {
@@ -269,7 +269,7 @@ def _tell_against(reader: Reader, node: MappingNode, place: Place, link: str, pi
 
 
 #: The keys of which one set says what a cycle is.
-CYCLE_FORMS = (("duration",), ("from", "to"), ("turns",))
+CYCLE_FORMS = (("duration",), ("from", "to"), ("turns",), ("rock", "margin"))
 
 
 def read_cycle(reader: Reader, node: Node | None, drivers: Mapping[str, Driver]) -> Cycle | None:
@@ -277,10 +277,13 @@ def read_cycle(reader: Reader, node: Node | None, drivers: Mapping[str, Driver])
     if node is None:
         return None
     before = reader.error_count
-    values = reader.table(node, Place("cycle", "cycle"), Cycle.fields(reader.input_dimension()))
+    if isinstance(node, Scalar) and node.text == ROCK:
+        values: dict[str, Any] | None = {"rock": LIMITS}
+    else:
+        values = reader.table(node, Place("cycle", "cycle"), Cycle.fields(reader.input_dimension()))
     if values is None or reader.error_count > before:
         return None
-    if set(values) not in map(set, CYCLE_FORMS):
+    if set(values) not in (*map(set, CYCLE_FORMS), {"rock"}):
         problem = _("nothing is set")
         if values:
             problem = _("{keys} is set", keys=together(list(values)))
@@ -288,23 +291,25 @@ def read_cycle(reader: Reader, node: Node | None, drivers: Mapping[str, Driver])
             node,
             "cycle",
             problem,
-            _("write one of {{duration: 2 s}}, {{from: 0 deg, to: 90 deg}}, {{turns: 1}}"),
+            _("write one of {{duration: 2 s}}, {{from: 0 deg, to: 90 deg}}, {{turns: 1}}, or rock"),
             "choice",
         )
         return None
     law = next((driver.law for driver in drivers.values()), None)
     if "duration" not in values and law is not None:
-        _check_range(reader, node, values, law)
-    return Cycle(values.get("duration"), values.get("from"), values.get("to"), values.get("turns"))
+        _check_range(reader, node, values, law, len(drivers))
+    return Cycle.of(values)
 
 
-def _check_range(reader: Reader, node: Node, values: Mapping[str, float], law: Law) -> None:
-    word = "turns" if "turns" in values else _("from and to")
+def _check_range(reader: Reader, node: Node, values: Mapping[str, Any], law: Law, drivers: int) -> None:
+    word = "turns" if "turns" in values else "rock" if "rock" in values else _("from and to")
     problem, remedy, code = None, _("give duration"), "choice"
     if law.constant_speed is None:
         problem = _("{word} needs a first driver of constant speed", word=word)
     elif law.constant_speed == 0:
         problem = _("{word} needs a speed other than zero", word=word)
+    elif "rock" in values:
+        problem, remedy, code = _check_rock(values, drivers)
     elif "turns" in values and not law.rotary:
         problem, remedy = _("the first driver does not turn"), _("give duration, or from and to")
     elif "from" in values and (values["to"] - values["from"]) * law.constant_speed <= 0:
@@ -315,3 +320,20 @@ def _check_range(reader: Reader, node: Node, values: Mapping[str, float], law: L
         )
     if problem is not None:
         reader.error(node, "cycle", problem, remedy, code)
+
+
+def _check_rock(values: Mapping[str, Any], drivers: int) -> tuple[Message | None, Message, str]:
+    """What is in the way of a cycle that rocks."""
+    if drivers > 1:
+        return (
+            _("rock needs a single driver, not {count}", code="model.rock_drivers", count=drivers),
+            _("give duration"),
+            "choice",
+        )
+    if values["rock"] != LIMITS and "margin" in values:
+        return (
+            _("a margin goes with the limits that are found, not with two coordinates", code="model.rock_margin"),
+            _("remove margin, or write rock: limits"),
+            "choice",
+        )
+    return None, _("give duration"), "choice"

@@ -20,7 +20,7 @@ from linkwright.files.read_model import FREE_SECTIONS, HEADER
 from linkwright.filesystem import atomic_write
 from linkwright.joints.base import IMPLIED, Joint
 from linkwright.mechanism.link import LINK_FIELDS, STRUCTURAL_POINTS, Link, Vec, from_drawing
-from linkwright.mechanism.mechanism import GRAVITY, Cycle, Mechanism
+from linkwright.mechanism.mechanism import GRAVITY, Mechanism
 from linkwright.registry import offered
 from linkwright.units import NONE, number, si_symbol
 from linkwright.words import _
@@ -49,9 +49,7 @@ def to_data(mechanism: Mechanism) -> Plain:
     data["assembly"] = dict(mechanism.assembly)
     data["drawing"] = _places(mechanism.drawing)
     data |= _drivers(mechanism.drivers, texts)
-    fields, cycle = Cycle.fields(mechanism.across), mechanism.cycle.dimensions() if mechanism.cycle else {}
-    cycle_values = {key: fields[key].written(cycle[f"cycle.{key}"]) for key in fields if f"cycle.{key}" in cycle}
-    data["cycle"] = _substituted(cycle_values, "cycle", texts)
+    data["cycle"] = _substituted(mechanism.cycle.written(mechanism.across), "cycle", texts) if mechanism.cycle else {}
     gravity = _substituted(GRAVITY.written(mechanism.gravity), "gravity", texts)
     data["gravity"] = [] if gravity == [0.0, 0.0] else gravity
     data["loads"] = {

@@ -53,7 +53,7 @@ class Assembly:
 
     def _input(self, name: str) -> float:
         drawn = self.drawing.driver(name) if self.drawing else None
-        return self.drawing.mechanism.drivers[name].law.at(0.0) if drawn is None else drawn
+        return self.drawing.mechanism.drivers[name].law.own.at(0.0) if drawn is None else drawn
 
 
 def assemble(mechanism: Mechanism, structure: Structure) -> Assembly:

@@ -64,7 +64,7 @@ def time_span(mechanism: Mechanism) -> tuple[float, float, bool]:
     cycle = mechanism.cycle
     first = next(iter(mechanism.drivers.values()))
     known = _naturals(mechanism)
-    if cycle is None and not known:
+    if (cycle is None or cycle.natural) and not known:
         problem = (
             _(
                 "the cycle of {name!r} has no natural end, as driver {driver!r} does not turn; write "
@@ -79,7 +79,7 @@ def time_span(mechanism: Mechanism) -> tuple[float, float, bool]:
             )
         )
         raise CycleError(problem.format(name=mechanism.name, driver=first.name))
-    if cycle is None:
+    if cycle is None or cycle.natural:
         full_span = _full_span(mechanism) if together(mechanism) <= FEW else None
         return 0.0, full_span or max(known), full_span is not None
     if cycle.duration is not None:

@@ -17,6 +17,7 @@ from linkwright.core.expressions import amount
 from linkwright.core.inputs import driven
 from linkwright.core.quantity import shown
 from linkwright.drivers.base import Driver
+from linkwright.drivers.rocking import Rocking
 from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
@@ -235,7 +236,7 @@ def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> 
     rows = {}
     for name, values in requested.items():
         driver = _driver(mechanism, name)
-        if driver.law.constant_speed is None:
+        if not driver.law.placeable:
             raise CycleError(
                 _(
                     "driver {name!r} follows its own law in time; ask for positions by times instead of inputs",
@@ -248,6 +249,7 @@ def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> 
             raise CycleError(
                 _("an input of driver {name!r} is not a finite number", code="motion.bad_input", name=name)
             )
+        _refuse_beyond(driver, q)
         rows[name] = q
     count = max(len(q) for q in rows.values())
     first, q = next(iter(rows.items()))
@@ -256,6 +258,27 @@ def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> 
     for name, q in rows.items():
         coordinates[name] = (np.broadcast_to(q, (count,)).copy(), *coordinates[name][1:])
     return Positions(np.array(time), coordinates, rotary(mechanism))
+
+
+def _refuse_beyond(driver: Driver, q: Floats) -> None:
+    """Refuses coordinates (rad or m) to which a driver that rocks does not come: no rate belongs to them."""
+    law = driver.law
+    if not isinstance(law, Rocking) or law.ends is None:
+        return
+    low, high = law.ends
+    beyond = q[(q < low - 1e-12) | (q > high + 1e-12)]
+    if len(beyond):
+        kind = "angle" if law.rotary else "length"
+        raise CycleError(
+            _(
+                "{value} lies beyond the ends between which driver {name!r} rocks, {low} and {high}",
+                code="motion.beyond_rock",
+                value=shown(float(beyond[0]), kind),
+                name=driver.name,
+                low=shown(low, kind),
+                high=shown(high, kind),
+            )
+        )
 
 
 def rotary(mechanism: Mechanism) -> dict[str, bool]:

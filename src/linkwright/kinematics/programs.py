@@ -186,7 +186,8 @@ _forms: Recent[object, tuple[Form, tuple[str, ...]]] = Recent(256)
 
 
 def _driver(driver: Driver) -> Hashable:
-    return driver.name, driver.joint, driver.link, driver.relative_to, type(driver.law)
+    law = driver.law
+    return driver.name, driver.joint, driver.link, driver.relative_to, type(law.own), law.constant_speed is None
 
 
 #: The number of quarter turns in angles that are multiples of one; 0 for zero.

@@ -11,6 +11,7 @@ import numpy as np
 from linkwright.core.arrays import Indices
 from linkwright.core.outputs import row_name
 from linkwright.core.quantity import shown
+from linkwright.drivers.rocking import Rocking
 from linkwright.kinematics.change_points import closes
 from linkwright.kinematics.cycle import FEW, MOST, cycle_turns, not_back, together
 from linkwright.kinematics.motion import Motion, Outcome
@@ -92,8 +93,10 @@ _OUTCOMES = {
 def turn_notes(motion: Motion) -> tuple[Message, ...]:
     """How many turns of the drivers the cycle of a mechanism with wheels takes, if not one, or that it never ends."""
     positions, mechanism = motion.positions, motion.mechanism
-    if not positions.cycle or mechanism.cycle is not None:
+    if not positions.cycle or not (mechanism.cycle is None or mechanism.cycle.natural):
         return ()
+    if notes := _rock_notes(mechanism):
+        return notes
     if positions.period is not None:
         turns, driver = cycle_turns(mechanism, positions.period)
         if turns == 1:
@@ -119,6 +122,20 @@ def turn_notes(motion: Motion) -> tuple[Message, ...]:
         )
         if mechanism.higher and not_back(mechanism)
         else ()
+    )
+
+
+def _rock_notes(mechanism: Mechanism) -> tuple[Message, ...]:
+    """That a driver in a cycle that rocks turns, as it finds no limit."""
+    return tuple(
+        _(
+            "the {link} can turn fully, so it turns instead of rocking; to rock it, give two "
+            "coordinates, as in cycle: {{rock: [-30 deg, 30 deg]}}",
+            code="cycle.rock_turns",
+            link=driver.link,
+        )
+        for driver in mechanism.drivers.values()
+        if isinstance(driver.law, Rocking) and driver.law.ends is None
     )
 
 

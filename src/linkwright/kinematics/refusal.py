@@ -14,7 +14,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import Message, _
 
 _CHANGE = _(
-    "change the dimensions, the assembly or the range of the input (cycle: {{from: …, "
+    "change the dimensions, the assembly or the range of the input (cycle: rock, or cycle: {{from: …, "
     "to: …}}), or ask for marked outcomes"
 )
 

@@ -119,7 +119,7 @@ class Drawing:
             self._hold(joints.pop(0))
         for driver in self.mechanism.drivers.values():
             if driver.law.rotary:
-                start = driver.law.at(0.0)
+                start = driver.law.own.at(0.0)
                 turned, base = (self._directions[each] for each in (driver.link, driver.relative_to))
                 if turned is not None and base is not None:
                     start += math.remainder(turned - base - start, 2.0 * math.pi)
@@ -184,7 +184,7 @@ class Drawing:
         if math.hypot(dx, dy) <= abs(joint.offset):
             return None
         along = math.sqrt(dx * dx + dy * dy - joint.offset**2)
-        starts = (d.law.at(0.0) for d in self.mechanism.drivers.values() if d.joint == joint.name)
+        starts = (d.law.own.at(0.0) for d in self.mechanism.drivers.values() if d.joint == joint.name)
         if self.mechanism.assembly.get(joint.name) == "backward" or next(starts, 0.0) < 0.0:
             along = -along
         return math.atan2(dy, dx) - math.atan2(joint.offset, along) - joint.direction

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, fields
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import Any
 
@@ -15,11 +15,13 @@ from linkwright.core.data import Frozen, FrozenDict, frozen
 from linkwright.core.expressions import Expression
 from linkwright.core.outputs import Output, rate_dimension
 from linkwright.drivers.base import Driver
+from linkwright.drivers.rocking import Rocking
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.fields.base import Field, Quantities, Quantity
+from linkwright.fields.base import Field, Quantities
 from linkwright.fields.references import PLACE
 from linkwright.joints.base import Joint
 from linkwright.joints.lower_pair import RigidJoint, SlidingJoint, TurningJoint
+from linkwright.mechanism.cycle import Cycle
 from linkwright.mechanism.link import Link, Vec
 from linkwright.registry import nearest, no_such
 from linkwright.units import LARGEST_OF_ALL, SI_UNITS, Dimension
@@ -61,38 +63,6 @@ GRAVITY = Quantities("acceleration", ("x", "y"), doc=_("gravity in frame axes"),
 
 
 @dataclass(frozen=True)
-class Cycle:
-    """What one cycle is: a ``duration`` (s), a range of the first driver's coordinate (rad or m), or
-    ``turns`` of it."""
-
-    duration: float | None = None
-    start: float | None = None
-    end: float | None = None
-    turns: float | None = None
-
-    @staticmethod
-    def fields(across: str) -> dict[str, Field]:
-        """The keys of the section ``cycle``; ``across``: dimension of the first driver's coordinate."""
-        return {
-            "duration": Quantity("time", above=0, doc=_("time of one cycle")),
-            "from": Quantity(across, doc=_("first coordinate of the first driver")),
-            "to": Quantity(across, doc=_("last coordinate of the first driver")),
-            "turns": Quantity("dimensionless", above=0, doc=_("turns of the first driver")),
-        }
-
-    def dimensions(self) -> dict[str, float]:
-        """Addresses (``cycle.duration``, ``cycle.from``, ``cycle.to``, ``cycle.turns``) with their SI
-        values."""
-        values = {"duration": self.duration, "from": self.start, "to": self.end, "turns": self.turns}
-        return {f"cycle.{name}": value for name, value in values.items() if value is not None}
-
-    def with_dimensions(self, value: Callable[[str], float]) -> Cycle:
-        """The same cycle with the values that ``value`` gives for the addresses of ``dimensions``."""
-        new = {address: value(address) for address in self.dimensions()}
-        return Cycle(*(new.get(f"cycle.{name}") for name in ("duration", "from", "to", "turns")))
-
-
-@dataclass(frozen=True)
 class Mechanism(Frozen):
     """A planar mechanism as the file or the code gave it: links, joints, drivers, loads; SI units, radians.
 
@@ -125,6 +95,23 @@ class Mechanism(Frozen):
     sheet: Mapping[str, Any] = field(default_factory=dict)
     course: Mapping[str, Any] = field(default_factory=dict)
     optimize: Mapping[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self._rock()
+
+    def _rock(self) -> None:
+        """Gives the only driver the law of a cycle that rocks; in any other cycle drivers keep their own laws."""
+        rock = None if self.cycle is None else self.cycle.rock
+        if rock is None and all(driver.law.own is driver.law for driver in self.drivers.values()):
+            return
+        own = FrozenDict({name: replace(each, law=each.law.own) for name, each in self.drivers.items()})
+        drivers: Mapping[str, Driver] = own
+        if rock is not None and len(own) == 1:
+            (driver,) = own.values()
+            law = Rocking(driver.law, rock, self._changed({}, drivers=own, cycle=None), driver.law.rotary)
+            drivers = FrozenDict({driver.name: replace(driver, law=law)})
+        object.__setattr__(self, "drivers", drivers)
 
     def dimension(self, address: str) -> float:
         """SI value of the dimension at an address such as ``crank.length``; raises for an unknown address."""
@@ -179,8 +166,9 @@ class Mechanism(Frozen):
         drivers = self.drivers if parameters != self.parameters else renewed["driver"]
         same = len(unchanged) == len(self.expressions)
         found = {"_dimensions": new, "_owners": self._owners, "higher": self.higher}
-        return self._changed(
-            found | ({"family": self.family} if same else {}),
+        rocks = self.cycle is not None and self.cycle.rock is not None
+        changed = self._changed(
+            found | ({"family": self.family} if same and not rocks else {}),
             frame=links.pop("frame"),
             links=_with(self.links, links),
             joints=_with(self.joints, joints),
@@ -193,6 +181,9 @@ class Mechanism(Frozen):
             parameters=_with(self.parameters, parameters),
             expressions=self.expressions if same else unchanged,
         )
+        if rocks:
+            changed._rock()
+        return changed
 
     def _changed(self, found: Mapping[str, Any], **changes: Any) -> Mechanism:
         """The same mechanism with other fields, the others are frozen already, and what is ``found`` of it."""
@@ -292,7 +283,7 @@ class Mechanism(Frozen):
         reach += [abs(getattr(joint, "offset", 0.0)) for joint in self.joints.values()]
         for driver in self.drivers.values():
             if self.joints[driver.joint].coordinate == "slide":
-                reach.append(abs(driver.law.at(0.0)))
+                reach.append(abs(driver.law.own.at(0.0)))
         largest = max(reach)
         return 2.0 ** math.frexp(largest)[1] if largest > 0.0 else 1.0
 

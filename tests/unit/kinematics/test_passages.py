@@ -31,7 +31,7 @@ from linkwright.kinematics.passing import ChangePointCrossing
 from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.reach_messages import passage_notes
 from linkwright.kinematics.solver import MotionSolver
-from linkwright.mechanism.mechanism import Cycle
+from linkwright.mechanism.cycle import Cycle
 
 
 def row(n: int, step: float = 0.1, closed: bool = False, cycle: bool = False, rotary: bool = True) -> Positions:

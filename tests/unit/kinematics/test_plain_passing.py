@@ -8,7 +8,8 @@ from tests.failures.limited_machines import fourbar
 
 import linkwright as lw
 from linkwright.kinematics.passing import plainly_passed
-from linkwright.mechanism.mechanism import Cycle, Mechanism
+from linkwright.mechanism.cycle import Cycle
+from linkwright.mechanism.mechanism import Mechanism
 
 PASSED = (
     "crank_rocker",

@@ -11,7 +11,7 @@ from tests.refusals import refused
 import linkwright as lw
 from linkwright.kinematics.cycle import over_cycle, time_span
 from linkwright.kinematics.positions import CycleError
-from linkwright.mechanism.mechanism import Cycle
+from linkwright.mechanism.cycle import Cycle
 
 CRANK = """
 format: 1

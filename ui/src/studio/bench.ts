@@ -4,6 +4,7 @@ import type { Desk } from "../desk";
 import type { Session } from "../session";
 import type { Vec } from "../shapes";
 import type { Gap } from "./outline";
+import type { Sheet } from "./tools/tool";
 
 export const TOOLS = [
   "move", "pivot", "link", "plate", "slider", "slot", "weld", "gears", "rack", "cam", "drive", "force", "torque", "spring", "mass", "dimension", "target",
@@ -87,6 +88,8 @@ export class Bench {
   readonly scale = signal(2400);
   /** A sentence at the cursor, why a click was refused. */
   readonly refusal = signal<{ sentence: string; at: Vec } | null>(null);
+  /** The sheet, once it is there: camera, scene, layers that are drawn over the machine. */
+  readonly sheet = signal<Sheet | null>(null);
   /** Why the machine cannot be assembled, drawn on the sheet. */
   readonly gap = computed<Gap | null>(() => this.desk.solved.value.gap ?? null);
   /** The machine of the present text; null where the text makes none. */

@@ -208,3 +208,27 @@ export function loadAt(at: Vec, all: DrawnLoad[], reach = 8): string | null {
   }
   return found;
 }
+
+// An arrow's head: its length and half its width, px.
+const HEAD = 10, HALF = 3.7;
+const place = ([x, y]: Vec) => `${x.toFixed(1)} ${y.toFixed(1)}`;
+
+/** Shaft and head of an arrow between two places of the screen. */
+export function arrowPath(from: Vec, to: Vec): [shaft: string, head: string] {
+  const far = Math.hypot(to[0] - from[0], to[1] - from[1]) || 1, [u, v] = [(to[0] - from[0]) / far, (to[1] - from[1]) / far], size = Math.min(HEAD, far);
+  const back: Vec = [to[0] - size * u, to[1] - size * v], half = (HALF * size) / HEAD;
+  return [
+    `M${place(from)}L${place([to[0] - 0.8 * size * u, to[1] - 0.8 * size * v])}`,
+    `M${place(to)}L${place([back[0] - half * v, back[1] + half * u])}L${place([back[0] + half * v, back[1] - half * u])}Z`,
+  ];
+}
+
+/** An arc about a place with a head at its end, from one angle to another (rad, counter-clockwise positive). */
+export function arcPath([x, y]: Vec, r: number, from: number, to: number): [arc: string, head: string] {
+  const at = (angle: number, radius = r): Vec => [x + radius * Math.cos(angle), y - radius * Math.sin(angle)], way = to - from, sign = Math.sign(way) || 1;
+  const bend = Math.min(HEAD / r, Math.abs(way)), end = to - sign * bend, large = Math.abs(end - from) > Math.PI ? 1 : 0;
+  return [
+    `M${place(at(from))}A${r} ${r} 0 ${large} ${sign > 0 ? 0 : 1} ${place(at(end))}`,
+    `M${place(at(to))}L${place(at(end, r - HALF))}L${place(at(end, r + HALF))}Z`,
+  ];
+}

@@ -4,6 +4,7 @@ import type { Load } from "../../drawn_loads";
 import type { Picture } from "../../picture";
 import type { Session } from "../../session";
 import type { Vec } from "../../shapes";
+import type { Entry } from "../outline";
 
 export interface ScenePoint {
   name: string;
@@ -14,24 +15,39 @@ export interface ScenePoint {
   links: string[];
 }
 
+/** An entry of `joints:` with the point at which it is drawn. */
+export interface ScenePair {
+  name: string;
+  kind: string;
+  at: Vec | null;
+}
+
 export class Scene {
   readonly points = new Map<string, ScenePoint>();
   readonly links: Record<string, string[]>;
   readonly loads: Record<string, Load>;
   readonly guided: string[];
   readonly driver: string | null;
+  readonly pairs: ScenePair[];
 
-  /** `index`: the position of the machine that is shown; without a machine the places are those of the drawing. */
-  constructor(picture: Picture | undefined, session: Session | null, index: number) {
+  /** `place`: that of the machine among its positions which is shown; without a machine places are those of the drawing. */
+  constructor(picture: Picture | undefined, session: Session | null, place: number, joints?: Entry, lifted: Record<string, Vec> | null = null) {
     const { points = {}, fixed = [], links = {}, loads = {}, guided = [], driver = null } = picture ?? {};
     [this.links, this.loads, this.guided, this.driver] = [links, loads, guided, driver];
     const keys = new Set(session?.data.points.map(({ key }) => key)), names = new Set([...Object.keys(points), ...Object.values(links).flat()]);
+    const { main, solver } = session?.model ?? {}, between = Number.isInteger(place) ? null : solver?.whole(place);
+    const value = (row: string) => (between ? between.row(row)[0] : main!.row(row)[Math.round(place) % main!.n]);
     for (const name of names) {
       const own = Object.keys(links).filter((link) => links[link].includes(name));
       const key = [name, ...own.map((link) => `${link}.${name}`), ...(fixed.includes(name) ? [`frame.${name}`] : [])].find((each) => keys.has(each)) ?? "";
-      const at = key && session ? (["x", "y"].map((axis) => session.model.main.row(`p:${key}.${axis}`)[index]) as Vec) : points[name];
+      const at = lifted?.[name] ?? (key && session ? (["x", "y"].map((axis) => value(`p:${key}.${axis}`)) as Vec) : points[name]);
       if (at && at.every(Number.isFinite)) this.points.set(name, { name, key, at, fixed: fixed.includes(name), links: own });
     }
+    this.pairs = Object.entries(typeof joints === "object" && !Array.isArray(joints) ? joints : {}).flatMap(([pair, entry]) => {
+      if (typeof entry !== "object" || Array.isArray(entry)) return [];
+      const { kind, at } = entry;
+      return [{ name: pair, kind: typeof kind === "string" ? kind : "", at: typeof at === "string" ? this.at(at) : null }];
+    });
   }
 
   at(name: string): Vec | null {

@@ -1,21 +1,57 @@
-// The sheet in the middle of the window, and what floats over it: hint, values in hand, refusals, the callout of a gap, what is shown.
-import { useLayoutEffect, useRef } from "preact/hooks";
-import { View } from "../../view";
+// The sheet in the middle of the window, and what floats over it: hint, refusals, values in hand.
+import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { Bench } from "../bench";
+import { Hand } from "./hand";
+import { Keys } from "./keys";
+import { Pointers } from "./pointer";
+import { Board } from "./sheet";
+
+/** A refusal goes after this time, ms. */
+const LONG = 6000;
 
 export function Stage({ bench }: { bench: Bench }) {
-  const host = useRef<HTMLDivElement>(null), session = bench.session.value;
+  const stage = useRef<HTMLElement>(null), host = useRef<HTMLDivElement>(null), [board, setBoard] = useState<Board | null>(null);
   useLayoutEffect(() => {
-    if (!session) return;
-    const view = (session.view = new View(session.model, host.current!, session.shown));
-    const observer = new ResizeObserver(([{ contentRect: box }]) => view.resize(box.width, box.height));
-    observer.observe(host.current!);
-    view.draw(bench.page.index(session));
+    const made = new Board(bench, host.current!), hand = new Hand(made, stage.current!), keys = new Keys(made, hand, new Pointers(made));
+    made.drawn = () => hand.draw();
+    bench.sheet.value = bench.view = made;
+    bench.reveal = (items) => made.reveal(items);
+    setBoard(made);
     return () => {
-      observer.disconnect();
-      view.end();
-      view.svg.remove();
+      bench.sheet.value = bench.view = null;
+      keys.end();
+      hand.end();
+      made.end();
     };
-  }, [session]);
-  return <main class="stage"><div class="paper" ref={host} /></main>;
+  }, []);
+  return (
+    <main class="stage" ref={stage} data-tool={bench.tool.value}>
+      <div class="paper" ref={host} tabIndex={0} role="application" aria-label={bench.say("sheet.label")} aria-describedby="sheet-keys" />
+      <p class="unseen" id="sheet-keys">{bench.say("sheet.keys")}</p>
+      {board && <Hint board={board} />}
+      {board && <Refusal board={board} />}
+      {board && <p class="unseen" aria-live="polite">{board.said.value}</p>}
+    </main>
+  );
+}
+
+/** The next step in a sentence; keys stand in brackets in it. */
+function Hint({ board }: { board: Board }) {
+  const text = board.hint.value;
+  if (!text) return null;
+  return <p class="hint">{text.split(/(\[[^\]]+\])/).map((part, k) => (part.startsWith("[") ? <kbd key={k}>{part.slice(1, -1)}</kbd> : part))}</p>;
+}
+
+/** Why a click was refused, at the cursor. */
+function Refusal({ board }: { board: Board }) {
+  const { bench, camera } = board, refusal = bench.refusal.value, bubble = useRef<HTMLParagraphElement>(null);
+  useLayoutEffect(() => {
+    if (!refusal || !bubble.current) return;
+    const [x, y] = camera.screen(refusal.at), [w, h] = camera.size, { offsetWidth: wide, offsetHeight: tall, style } = bubble.current;
+    style.left = `${Math.max(8, Math.min(x - wide / 2, w - wide - 8))}px`;
+    style.top = `${y + 24 + tall < h ? y + 24 : Math.max(8, y - 24 - tall)}px`;
+    const timer = setTimeout(() => (bench.refusal.value = null), LONG);
+    return () => clearTimeout(timer);
+  }, [refusal]);
+  return <div role="alert" class="refusals">{refusal && <p class="refusal" ref={bubble}>{refusal.sentence}</p>}</div>;
 }

@@ -99,7 +99,7 @@ class DimensionTool implements Tool {
   }
 
   escape(): boolean {
-    this.clicks.drop();
+    if (this.clicks.drop()) return true;
     const back = this.values.clear() || this.stands !== null || this.picked.splice(-1).length > 0;
     this.stands = null;
     this.sheet.redraw();

@@ -19,18 +19,20 @@ export const near = (spot: Spot, screen: Vec) => distance(spot.screen, screen) <
 export class Clicks {
   private pressed: Spot | null = null;
   private dragged = false;
+  private begun = false;
 
   constructor(private readonly click: (spot: Spot) => void, private readonly begins: () => boolean = () => false) {}
 
   down(spot: Spot): void {
     this.pressed = spot;
-    this.dragged = false;
+    this.dragged = this.begun = false;
   }
 
   move(spot: Spot): void {
     if (!this.pressed || this.dragged || !this.far(spot)) return;
     this.dragged = true;
-    if (this.begins()) this.click(this.pressed);
+    this.begun = this.begins();
+    if (this.begun) this.click(this.pressed);
   }
 
   up(spot: Spot): void {
@@ -39,9 +41,11 @@ export class Clicks {
     if (pressed) this.click(this.dragged ? spot : pressed);
   }
 
-  /** What was pressed is no click. */
-  drop(): void {
+  /** What was pressed is no click; false where that is not enough: nothing was, or a drag has begun something. */
+  drop(): boolean {
+    const enough = this.pressed !== null && !this.begun;
     this.pressed = null;
+    return enough;
   }
 
   private far({ screen, touch }: Spot): boolean {

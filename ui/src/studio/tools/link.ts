@@ -1,6 +1,6 @@
 // Link: click a joint, click the next one; the end of a link begins the next. A typed length is kept whatever the pointer does.
 import type { Vec } from "../../shapes";
-import { Clicks, distance, dropped, type End, endAt, heading, near, polar, TypedValues } from "./hand";
+import { Clicks, distance, dropped, type End, endAt, heading, near, pointAt, polar, TypedValues } from "./hand";
 import { inHand, joint } from "./marks";
 import type { MakeTool, Overlay, Sheet, Spot, Tool } from "./tool";
 
@@ -40,7 +40,7 @@ class LinkTool implements Tool {
   }
 
   escape(): boolean {
-    this.clicks.drop();
+    if (this.clicks.drop()) return true;
     if (this.values.clear()) return true;
     return this.drop();
   }
@@ -78,7 +78,7 @@ class LinkTool implements Tool {
       this.sheet.redraw();
       return;
     }
-    const same = endAt(spot, this.sheet.scene).name === this.from.name || near(spot, this.sheet.camera.screen(this.start!));
+    const same = pointAt(spot, this.sheet.scene) === this.from.name || near(spot, this.sheet.camera.screen(this.start!));
     if (same && !this.values.any) this.drop();
     else this.finish(this.end(spot));
   }

@@ -84,7 +84,7 @@ class PickTool implements Tool, Hand {
   }
 
   escape(): boolean {
-    this.clicks.drop();
+    if (this.clicks.drop()) return true;
     const back = this.values.clear() || this.picked.length > 0 && this.picked.splice(-1).length > 0;
     this.sheet.redraw();
     return back;

@@ -33,7 +33,7 @@ class PivotTool implements Tool {
   }
 
   escape(): boolean {
-    this.clicks.drop();
+    if (this.clicks.drop()) return true;
     return this.values.clear();
   }
 

@@ -50,7 +50,7 @@ class PlateTool implements Tool {
   }
 
   escape(): boolean {
-    this.clicks.drop();
+    if (this.clicks.drop()) return true;
     const back = this.values.clear() || this.corners.splice(-1).length > 0 || this.adding !== null;
     if (this.adding) this.sheet.bench.select();
     this.back = null;

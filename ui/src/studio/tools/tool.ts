@@ -62,6 +62,8 @@ export interface Sheet {
   readonly bench: Bench;
   readonly camera: Camera;
   readonly scene: Scene;
+  /** What else is drawn over the machine, below what the tool draws: called at every drawing, in pixels of the screen. */
+  readonly layers: Set<(over: Overlay) => void>;
   /** Where the pointer is now, or was last; null before it has been on the sheet. */
   readonly spot: Spot | null;
   /** Carries out actions on the text as one step that can be undone; gives the names that were made, null where the text
@@ -73,6 +75,14 @@ export interface Sheet {
   redraw(): void;
   /** Ends the tool and takes another one. */
   take(tool: ToolName): void;
+  /** Shows the machine as it is drawn, at rest. */
+  toDrawn(): void;
+  // the camera: at the middle of the sheet, or at a place of it (px)
+  zoom(factor: number, at?: Vec): void;
+  /** 100 %. */
+  full(): void;
+  fit(): void;
+  fitSelection(): void;
 }
 
 export interface Tool {

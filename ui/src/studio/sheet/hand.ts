@@ -1,0 +1,163 @@
+// The values in hand: a small panel at the cursor whose numbers can be typed; at the foot of the sheet on a phone.
+import { pretty } from "./names";
+import type { Board } from "./sheet";
+import type { Field } from "../tools/tool";
+import { shown, typed } from "../tools/typed";
+import type { Vec } from "../../shapes";
+
+// How far the panel stays from the point in hand and from the edges of the sheet, px.
+const AWAY = 28, EDGE = 8;
+
+interface Input {
+  box: HTMLLabelElement;
+  label: HTMLSpanElement;
+  field: HTMLInputElement;
+  unit: HTMLSpanElement;
+}
+
+export class Hand {
+  private readonly panel: HTMLFormElement;
+  private readonly title: HTMLParagraphElement;
+  private readonly row: HTMLDivElement;
+  private readonly error: HTMLParagraphElement;
+  private readonly keys: HTMLParagraphElement;
+  private readonly set: HTMLButtonElement;
+  private inputs: Input[] = [];
+  private known = "";
+
+  constructor(private readonly board: Board, stage: HTMLElement) {
+    const make = <K extends keyof HTMLElementTagNameMap>(tag: K, style: string, parent?: HTMLElement) => {
+      const made = Object.assign(document.createElement(tag), { className: style });
+      parent?.append(made);
+      return made;
+    };
+    this.panel = make("form", "hand-panel", stage);
+    this.title = make("p", "snapped", this.panel);
+    this.row = make("div", "pair", this.panel);
+    this.set = make("button", "set", this.row);
+    this.set.type = "submit";
+    this.error = make("p", "error", this.panel);
+    this.error.setAttribute("role", "alert");
+    this.keys = make("p", "keys", this.panel);
+    this.panel.hidden = true;
+    this.panel.addEventListener("submit", (event) => {
+      event.preventDefault();
+      this.enter();
+    });
+    this.panel.addEventListener("keydown", (event) => this.key(event));
+  }
+
+  end(): void {
+    this.panel.remove();
+  }
+
+  get fields(): Field[] {
+    return (this.board.tool.fields?.() ?? []).filter(({ quiet, text }) => !quiet || text !== null);
+  }
+
+  /** Takes the first of what is typed; true where there is a field for it. */
+  begin(): boolean {
+    const first = this.inputs[0];
+    if (this.panel.hidden || !first) return false;
+    first.field.focus();
+    first.field.select();
+    return true;
+  }
+
+  get open(): boolean {
+    return !this.panel.hidden;
+  }
+
+  private enter(): void {
+    if (this.panel.querySelector("[aria-invalid=true]")) return;
+    this.board.tool.enter?.();
+    this.board.host.focus({ preventScroll: true });
+    this.board.redraw();
+  }
+
+  private key(event: KeyboardEvent): void {
+    event.stopPropagation();
+    if (event.key === "Escape") {
+      event.preventDefault();
+      const k = this.inputs.findIndex(({ field }) => field === document.activeElement);
+      if (k >= 0) this.take(this.fields[k], "");
+      this.board.host.focus({ preventScroll: true });
+      this.board.redraw();
+    }
+    if (event.key !== "Tab" || !this.inputs.length) return;
+    event.preventDefault();
+    const k = this.inputs.findIndex(({ field }) => field === document.activeElement), { length } = this.inputs;
+    const next = this.inputs[(k + (event.shiftKey ? length - 1 : 1)) % length].field;
+    next.focus();
+    next.select();
+  }
+
+  /** Gives the tool what is typed, with its unit; what cannot be read is said at the field. */
+  private take(field: Field, text: string): void {
+    const { bench, tool } = this.board, found = text.trim() ? (typed(text, field.quantity, bench.settings.value.unit)?.text ?? null) : "";
+    const wrong = found === null ? bench.say("sheet.unreadable", { text }) : (tool.type?.(field.key, found) ?? null);
+    this.error.textContent = wrong ?? "";
+    this.inputs[this.fields.findIndex(({ key }) => key === field.key)]?.field.setAttribute("aria-invalid", String(wrong !== null));
+    this.board.redraw();
+  }
+
+  /** Shows the values as they are now, beside the point in hand. */
+  draw(): void {
+    const { board, panel } = this, { bench, spot } = board, { fields } = this;
+    panel.hidden = !fields.length;
+    if (!fields.length) {
+      this.known = "";
+      return;
+    }
+    const known = [bench.page.language.value, ...fields.map(({ key, label }) => key + label)].join();
+    if (known !== this.known) this.build(fields);
+    this.known = known;
+    fields.forEach((field, k) => this.fill(field, this.inputs[k]));
+    const snapped = board.tool.note?.() || (spot?.snap?.sentence ?? "");
+    if (this.title.textContent !== snapped) this.title.textContent = snapped;
+    this.title.hidden = !snapped;
+    if (spot) this.put(spot.screen);
+  }
+
+  private build(fields: Field[]): void {
+    const { bench } = this.board;
+    for (const { box } of this.inputs) box.remove();
+    this.error.textContent = "";
+    this.set.textContent = bench.say("sheet.set");
+    this.keys.innerHTML = "";
+    for (const [key, word] of [["Tab", "next"], ["↵", "set"], ["Alt", "no_snap"]]) {
+      const mark = Object.assign(document.createElement("kbd"), { textContent: key });
+      this.keys.append(mark, ` ${bench.say(`sheet.key_${word}`)} `);
+    }
+    this.inputs = fields.map((field) => {
+      const box = document.createElement("label"), label = document.createElement("span"), input = document.createElement("input"), unit = document.createElement("span");
+      label.textContent = pretty(field.label) && field.label;
+      unit.className = "unit";
+      Object.assign(input, { type: "text", autocomplete: "off", spellcheck: false, inputMode: field.quantity === "teeth" ? "text" : "decimal", name: field.key });
+      box.append(label, input, unit);
+      input.addEventListener("input", () => this.take(field, input.value));
+      this.row.insertBefore(box, this.set);
+      return { box, label, field: input, unit };
+    });
+  }
+
+  private fill(field: Field, { box, field: input, unit }: Input): void {
+    const [number, symbol] = typeof field.value === "number" ? shown(field.value, field.quantity, this.board.bench.settings.value.unit) : [field.value, ""];
+    const fixed = field.text !== null;
+    box.classList.toggle("fixed", fixed);
+    if (document.activeElement !== input && !fixed && input.value !== number) input.value = number;
+    if (document.activeElement === input && !fixed && input.value && input.getAttribute("aria-invalid") !== "true" && input.value !== number) {
+      const all = input.selectionStart === 0 && input.selectionEnd === input.value.length;
+      input.value = number;
+      if (all) input.select();
+    }
+    if (unit.textContent !== symbol) unit.textContent = symbol;
+  }
+
+  /** Beside a place of the sheet, never over it, inside of the sheet. */
+  private put([x, y]: Vec): void {
+    const { panel } = this, [w, h] = this.board.camera.size, wide = panel.offsetWidth, tall = panel.offsetHeight;
+    const left = x + AWAY + wide + EDGE <= w ? x + AWAY : x - AWAY - wide, low = y + AWAY + tall + EDGE <= h ? y + AWAY : y - AWAY - tall;
+    panel.style.transform = `translate(${Math.round(Math.max(EDGE, Math.min(left, w - wide - EDGE)))}px, ${Math.round(Math.max(EDGE, low))}px)`;
+  }
+}

@@ -1,0 +1,86 @@
+// What is done to the selected elements: removed, copied, moved by steps, mirrored.
+import type { Action } from "../../picture";
+import type { Vec } from "../../shapes";
+import type { Item } from "../bench";
+import { plus } from "./geometry";
+import type { Board } from "./sheet";
+
+/** What has been copied, and how often it has been pasted since. */
+let copied: { items: Item[]; pasted: number } | null = null;
+
+export function everything(board: Board): boolean {
+  const { scene, bench } = board;
+  bench.select(
+    ...[...scene.points.keys()].map((name): Item => ({ kind: "point", name })), ...Object.keys(scene.links).map((name): Item => ({ kind: "link", name })),
+    ...Object.keys(scene.loads).map((name): Item => ({ kind: "load", name })),
+  );
+  return true;
+}
+
+export function erase(board: Board): boolean {
+  const items = board.bench.selection.value;
+  if (items.length) {
+    board.bench.select();
+    void board.act([{ do: "remove", items }]);
+  }
+  return true;
+}
+
+export function copy(board: Board): boolean {
+  const items = board.bench.selection.value.filter(({ kind }) => kind === "point" || kind === "link" || kind === "pair" || kind === "load");
+  if (!items.length) return false;
+  copied = { items, pasted: 0 };
+  return true;
+}
+
+export function cut(board: Board): boolean {
+  const done = copy(board);
+  // What is cut is gone from the text: it is pasted from a copy that was made before.
+  if (done) void board.act([{ do: "remove", items: copied!.items }]);
+  return done;
+}
+
+export function paste(board: Board): boolean {
+  if (!copied) return false;
+  copied.pasted++;
+  void put(board, copied.items, [copied.pasted * 2 * board.step, -copied.pasted * 2 * board.step]);
+  return true;
+}
+
+export function duplicate(board: Board): boolean {
+  const items = board.bench.selection.value;
+  if (items.length) void put(board, items, [2 * board.step, -2 * board.step]);
+  return true;
+}
+
+export function mirror(board: Board): boolean {
+  const items = board.bench.selection.value;
+  if (items.length) void put(board, items, [0, 0], "x");
+  return true;
+}
+
+async function put(board: Board, items: Item[], shift: Vec, about?: "x" | "y"): Promise<void> {
+  const made = await board.act([{ do: "paste", items, shift, ...(about ? { mirror: about } : {}) }]);
+  if (!made) return;
+  const { scene } = board;
+  board.bench.select(...made.flatMap((name): Item[] => (name in scene.links ? [{ kind: "link", name }] : scene.points.has(name) ? [{ kind: "point", name }] : name in scene.loads ? [{ kind: "load", name }] : [])));
+}
+
+/** The points of elements. */
+export function pointsOf({ scene }: Board, items: Item[]): string[] {
+  return [...new Set(items.flatMap(({ kind, name }) => (kind === "link" ? scene.links[name] ?? [] : kind === "point" ? [name] : [])))].filter((name) => scene.points.has(name));
+}
+
+/** Moves the selected elements by a way. */
+export function nudge(board: Board, way: Vec): boolean {
+  const points = pointsOf(board, board.bench.selection.value);
+  if (!points.length) return false;
+  void board.act([moved(board, points, way)]);
+  return true;
+}
+
+/** The action that moves points by a way, with all lengths between points of which only one moves. */
+export function moved({ scene }: Board, points: string[], way: Vec): Action {
+  return { do: "move", points: Object.fromEntries(points.map((name) => [name, plus(scene.at(name)!, way)])), locked: [] };
+}
+

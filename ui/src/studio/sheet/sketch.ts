@@ -1,0 +1,69 @@
+// What of a text can be drawn before it is a machine, in the same symbols: bars, plates, pivots, blocks in their guides.
+import { Names } from "../../names";
+import type { Picture } from "../../picture";
+import type { Vec } from "../../shapes";
+import { element, hull, line } from "../../strokes";
+import type { Camera } from "./camera";
+import type { Scene } from "./scene";
+
+const LAYERS = ["bodies", "blocks", "supports", "pins", "names"];
+const PIN = 5, POINT = 2.8;
+
+/** What is drawn of a picture: all of it, or what another one has not. */
+export class Sketch {
+  readonly svg: SVGElement;
+
+  constructor(host: HTMLElement, private readonly symbols: Record<string, string>) {
+    this.svg = element("svg", { class: "machine sketch", "aria-hidden": "true" }, host);
+  }
+
+  clear(): void {
+    if (this.svg.firstChild) this.svg.replaceChildren();
+  }
+
+  draw(scene: Scene, camera: Camera, names: boolean, known: Picture | null): void {
+    this.svg.replaceChildren();
+    const layer = Object.fromEntries(LAYERS.map((name) => [name, element("g", { class: `lw-${name}` }, this.svg)]));
+    const ink: number[] = [], [w, h] = camera.size, labelled: string[] = [];
+    const inked = (corners: Vec[]) => corners.forEach((corner, k) => k && ink.push(...corners[k - 1], ...corner));
+    for (const name of Object.keys(scene.links)) {
+      if (known && same(known.links[name], scene.links[name])) continue;
+      const corners = scene.corners(name).map((each) => camera.screen(each)), wide = corners.length > 2;
+      const around = wide ? hull(corners) : corners;
+      inked(wide ? [...around, around[0]] : around);
+      element("path", { class: `${wide ? "lw-plate" : "lw-bar"}${name === scene.driver ? " driven" : ""}`, d: line(around, wide) }, layer.bodies);
+    }
+    for (const { name, at, fixed, links } of scene.points.values()) {
+      const old = known && name in known.points && known.fixed.includes(name) === fixed && known.guided.includes(name) === scene.guided.includes(name);
+      if ((old && linksOf(known, name) === links.length) || covered(scene, name)) continue;
+      const [x, y] = camera.screen(at), put = (symbol: string, host: SVGElement) => {
+        element("g", { transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})` }, host).innerHTML = this.symbols[symbol];
+      };
+      if (fixed) {
+        put("fixed_pivot", layer.supports);
+        inked([[x - 16, y + 18], [x + 16, y + 18], [x, y + 6], [x - 16, y + 25], [x + 16, y + 25]]);
+      }
+      if (scene.guided.includes(name)) {
+        put("slider", layer.blocks);
+        inked([[x - 15, y - 9], [x + 15, y + 9], [x - 15, y + 9], [x + 15, y - 9]]);
+      }
+      const inner = !fixed && links.length === 1 && scene.links[links[0]].length > 2 && !scene.guided.includes(name);
+      element("circle", { class: inner ? "lw-point" : "lw-pin", cx: x.toFixed(1), cy: y.toFixed(1), r: inner ? POINT : PIN }, layer.pins);
+      inked([[x - 5, y - 5], [x + 5, y + 5], [x - 5, y + 5], [x + 5, y - 5]]);
+      labelled.push(name);
+    }
+    if (names && labelled.length) new Names(labelled, layer.names).write((name) => camera.screen(scene.at(name)!), ink, 1, w, h);
+  }
+}
+
+const same = (a: string[] | undefined, b: string[]) => a?.join() === b.join();
+const linksOf = (picture: Picture, point: string) => Object.values(picture.links).filter((points) => points.includes(point)).length;
+
+/** Whether a fixed point is under a block that it guides. */
+function covered({ guided, points }: Scene, name: string): boolean {
+  const point = points.get(name)!;
+  return point.fixed && !point.links.length && guided.some((block) => {
+    const at = points.get(block)?.at;
+    return at && Math.hypot(at[0] - point.at[0], at[1] - point.at[1]) < 1e-6;
+  });
+}
