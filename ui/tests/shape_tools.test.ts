@@ -7,6 +7,7 @@ import { Camera } from "../src/studio/sheet/camera";
 import { Scene } from "../src/studio/sheet/scene";
 import { radii, wheels } from "../src/studio/tools/gears";
 import { distance, meeting } from "../src/studio/tools/hand";
+import { driven } from "../src/studio/tools/measure";
 import { SHAPES } from "../src/studio/tools/shapes";
 import type { Overlay, Sheet, Snap, Spot, Tool } from "../src/studio/tools/tool";
 import { near } from "./near";
@@ -235,6 +236,15 @@ test("a weld is taken back, and an angle of two links turns the second one", asy
   const angle = await new Desk("dimension", right).steps([[50, 0], [150, 0], [90, 30], "angle=90", "Enter"]), move = angle.done[0][0] as unknown as { points: Record<string, Vec> };
   near(distance(move.points.B, at(100, 0)), 0.1, 1e-12);
   near(move.points.B[0], 0.1, 1e-12);
+});
+
+test("a side of a plate is written where the text has it", () => {
+  const scene = new Scene({ ...PICTURE, links: { plate: ["O1", "O2", "B"] } }, null, 0), bent = { plate: { points: ["O1", "O2", "B"], lengths: ["181 mm", "c"], angle: "30 deg" } };
+  const set = (points: [string, string], entries = {}) => driven(scene, { kind: "distance", points }, 0.05, "50 mm", [], entries)[0];
+  assert.deepEqual(set(["O2", "O1"], bent), { do: "set", path: ["links", "plate", "lengths"], value: ["50 mm", "c"] });
+  assert.deepEqual(set(["O1", "B"], bent), { do: "set", path: ["links", "plate", "lengths"], value: ["181 mm", "50 mm"] });
+  assert.deepEqual(set(["O2", "B"], bent), { do: "set", path: ["links", "plate", "angle"], value: "acos(((181 mm)^2 + (c)^2 - (50 mm)^2)/(2*(181 mm)*(c)))" });
+  assert.equal(set(["O1", "B"], { plate: { points: ["O1", "O2"], length: "181 mm" } }).do, "move");
 });
 
 test("wheels meet where the pointer is: between the pivots outside each other, beyond one inside", () => {

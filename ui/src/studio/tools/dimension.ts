@@ -1,70 +1,14 @@
 // Dimension: click a link, two points or two links, then where the dimension stands, and type its value: it drives the drawing.
-import type { Action } from "../../picture";
-import type { Vec } from "../../shapes";
-import type { Item } from "../bench";
-import type { Scene } from "../sheet/scene";
-import { Clicks, distance, heading, polar, turned, TypedValues } from "./hand";
+import type { Bench, Item } from "../bench";
+import type { Entry } from "../outline";
+import { Clicks, distance, polar, turned, TypedValues } from "./hand";
 import { line, outline } from "./marks";
+import { directions, driven, type Measure, measured, nearestSide, sizeOf } from "./measure";
 import type { Field, MakeTool, Overlay, Sheet, Spot, Tool } from "./tool";
 import { reads } from "./typed";
 
 // Least length, m; distance of the line from what it measures and radius of an arc, at least, px.
 const LEAST = 5e-5, OFF = 14, ARC = 24;
-
-/** What is measured: the length of a bar, the distance of two points, the angle of the second link from the first. */
-type Measure =
-  | { kind: "length"; link: string; points: [string, string] }
-  | { kind: "distance"; points: [string, string] }
-  | { kind: "angle"; links: [string, string]; at: string; arms: [string, string] };
-
-/** What the picked elements measure; null: there is one more to pick. */
-export function measured(scene: Scene, picked: Item[]): Measure | null {
-  const [first, second] = picked;
-  if (first?.kind === "link" && second) return between(scene, first.name, second.name);
-  if (first?.kind === "link") return ends(scene, scene.links[first.name].slice(0, 2) as [string, string]);
-  return second ? ends(scene, [first.name, second.name]) : null;
-}
-
-function ends(scene: Scene, points: [string, string]): Measure {
-  const link = Object.keys(scene.links).find((name) => scene.links[name].length === 2 && points.every((each) => scene.links[name].includes(each)));
-  return link ? { kind: "length", link, points } : { kind: "distance", points };
-}
-
-/** The angle at the joint of two links, or at the first point of the second one. */
-function between(scene: Scene, a: string, b: string): Measure {
-  const at = scene.links[a].find((point) => scene.links[b].includes(point)) ?? scene.links[b][0];
-  const arm = (link: string, from: string) => scene.links[link].find((point) => point !== from)!;
-  const from = scene.links[a].includes(at) ? at : scene.links[a][0];
-  return { kind: "angle", links: [a, b], at, arms: [arm(a, from), arm(b, at)] };
-}
-
-/** The directions of the two arms of an angle. */
-function directions(scene: Scene, { links: [a], at, arms }: Measure & { kind: "angle" }): [number, number] {
-  const from = scene.links[a].includes(at) ? at : scene.links[a].find((point) => point !== arms[0])!;
-  return [heading(scene.at(from)!, scene.at(arms[0])!), heading(scene.at(at)!, scene.at(arms[1])!)];
-}
-
-export function sizeOf(scene: Scene, measure: Measure): number {
-  if (measure.kind !== "angle") return distance(scene.at(measure.points[0])!, scene.at(measure.points[1])!);
-  const [a, b] = directions(scene, measure);
-  return Math.abs(turned(b - a));
-}
-
-/** What gives a measure its value (SI), with its text. */
-export function driven(scene: Scene, measure: Measure, value: number, text: string, locked: string[]): Action[] {
-  if (measure.kind === "length") return [{ do: "set", path: ["links", measure.link, "length"], value: text }];
-  if (measure.kind === "angle") {
-    const [a, b] = directions(scene, measure), bent = turned(b - a), turn = (bent < 0 ? -value : value) - bent, centre = scene.at(measure.at)!;
-    const others = scene.links[measure.links[1]].filter((point) => point !== measure.at && scene.at(point));
-    const places = others.map((point) => [point, polar(centre, distance(centre, scene.at(point)!), heading(centre, scene.at(point)!) + turn)]);
-    return [{ do: "move", points: Object.fromEntries(places) as Record<string, Vec>, locked }];
-  }
-  // The point that is clicked last moves, but a pivot only where both are pivots.
-  const fixed = (point: string) => scene.points.get(point)!.fixed, [a, b] = measure.points;
-  const [from, to] = fixed(b) && !fixed(a) ? [b, a] : [a, b], at = polar(scene.at(from)!, value, heading(scene.at(from)!, scene.at(to)!));
-  if (fixed(to)) return [{ do: "set", path: ["frame", "points", to], value: at.map((each) => `${Number((1e3 * each).toFixed(4))} mm`) }];
-  return [{ do: "move", points: { [to]: at }, locked }];
-}
 
 class DimensionTool implements Tool {
   readonly name = "dimension";
@@ -140,7 +84,7 @@ class DimensionTool implements Tool {
     const { scene, bench } = this.sheet;
     if (!found) return this.sheet.refuse("refuse.dimension_first");
     const known = found.kind === "dimension" ? found.name.replace(/\.length$/, "") : found.name;
-    this.picked = found.kind === "dimension" ? [{ kind: "link", name: known }] : found.kind === "link" ? side(scene, known, spot.free) : [found];
+    this.picked = found.kind === "dimension" ? [{ kind: "link", name: known }] : found.kind === "link" ? nearestSide(scene, known, spot.free) : [found];
     if (found.kind !== "dimension") return;
     this.stands = spot;
     bench.select(found);
@@ -157,7 +101,7 @@ class DimensionTool implements Tool {
     const key = measure.kind === "angle" ? "angle" : "length", value = this.values.value(key) ?? sizeOf(scene, measure);
     const text = this.values.written(key) ?? `${Number((1e3 * value).toFixed(1))} mm`, { picked, stands } = this;
     this.drop();
-    const made = await this.sheet.act(driven(scene, measure, value, text, [...bench.locked.value]));
+    const made = await this.sheet.act(driven(scene, measure, value, text, [...bench.locked.value], linksOf(bench)));
     if (made && measure.kind === "length") bench.select({ kind: "dimension", name: `${measure.link}.length` });
     else if (!made && !this.picked.length) [this.picked, this.stands] = [picked, stands];
     this.sheet.redraw();
@@ -195,14 +139,9 @@ class DimensionTool implements Tool {
   }
 }
 
-/** A bar as it is, of a plate the two points whose side is nearest to a place. */
-function side(scene: Scene, link: string, at: Vec): Item[] {
-  const points = scene.links[link].filter((point) => scene.at(point));
-  if (points.length < 3) return [{ kind: "link", name: link }];
-  const sides = points.map((point, k) => [point, points[(k + 1) % points.length]]);
-  // How much longer the way over the place is than the side itself.
-  const off = (each: string[]) => each.reduce((sum, point) => sum + distance(scene.at(point)!, at), 0) - distance(scene.at(each[0])!, scene.at(each[1])!);
-  return sides.reduce((best, each) => (off(each) < off(best) ? each : best)).map((name) => ({ kind: "point", name }));
+function linksOf({ desk }: Bench): { [link: string]: Entry } {
+  const links = desk.solved.value.outline?.entries.links;
+  return links && typeof links === "object" && !Array.isArray(links) ? links : {};
 }
 
 export const makeDimension: MakeTool = (sheet) => new DimensionTool(sheet);

@@ -1,0 +1,92 @@
+// What a dimension measures, and how its value drives the drawing: lengths of links, sides of plates, distances, angles.
+import type { Action } from "../../picture";
+import type { Vec } from "../../shapes";
+import type { Item } from "../bench";
+import type { Entry } from "../outline";
+import type { Scene } from "../sheet/scene";
+import { distance, heading, polar, turned } from "./hand";
+
+/** What is measured: the length of a bar, the distance of two points, the angle of the second link from the first. */
+export type Measure =
+  | { kind: "length"; link: string; points: [string, string] }
+  | { kind: "distance"; points: [string, string] }
+  | { kind: "angle"; links: [string, string]; at: string; arms: [string, string] };
+
+/** What the picked elements measure; null: there is one more to pick. */
+export function measured(scene: Scene, picked: Item[]): Measure | null {
+  const [first, second] = picked;
+  if (first?.kind === "link" && second) return between(scene, first.name, second.name);
+  if (first?.kind === "link") return ends(scene, scene.links[first.name].slice(0, 2) as [string, string]);
+  return second ? ends(scene, [first.name, second.name]) : null;
+}
+
+function ends(scene: Scene, points: [string, string]): Measure {
+  const link = Object.keys(scene.links).find((name) => scene.links[name].length === 2 && points.every((each) => scene.links[name].includes(each)));
+  return link ? { kind: "length", link, points } : { kind: "distance", points };
+}
+
+/** The angle at the joint of two links, or at the first point of the second one. */
+function between(scene: Scene, a: string, b: string): Measure {
+  const at = scene.links[a].find((point) => scene.links[b].includes(point)) ?? scene.links[b][0];
+  const arm = (link: string, from: string) => scene.links[link].find((point) => point !== from)!;
+  const from = scene.links[a].includes(at) ? at : scene.links[a][0];
+  return { kind: "angle", links: [a, b], at, arms: [arm(a, from), arm(b, at)] };
+}
+
+/** The directions of the two arms of an angle. */
+export function directions(scene: Scene, { links: [a], at, arms }: Measure & { kind: "angle" }): [number, number] {
+  const from = scene.links[a].includes(at) ? at : scene.links[a].find((point) => point !== arms[0])!;
+  return [heading(scene.at(from)!, scene.at(arms[0])!), heading(scene.at(at)!, scene.at(arms[1])!)];
+}
+
+export function sizeOf(scene: Scene, measure: Measure): number {
+  if (measure.kind !== "angle") return distance(scene.at(measure.points[0])!, scene.at(measure.points[1])!);
+  const [a, b] = directions(scene, measure);
+  return Math.abs(turned(b - a));
+}
+
+/** What gives a measure its value (SI), with its text; `links`: their entries in the text. */
+export function driven(scene: Scene, measure: Measure, value: number, text: string, locked: string[], links: { [link: string]: Entry } = {}): Action[] {
+  if (measure.kind === "length") return [{ do: "set", path: ["links", measure.link, "length"], value: text }];
+  const whole = measure.kind === "distance" && written(scene, measure.points, text, links);
+  if (whole) return [whole];
+  if (measure.kind === "angle") {
+    const [a, b] = directions(scene, measure), bent = turned(b - a), turn = (bent < 0 ? -value : value) - bent, centre = scene.at(measure.at)!;
+    const others = scene.links[measure.links[1]].filter((point) => point !== measure.at && scene.at(point));
+    const places = others.map((point) => [point, polar(centre, distance(centre, scene.at(point)!), heading(centre, scene.at(point)!) + turn)]);
+    return [{ do: "move", points: Object.fromEntries(places) as Record<string, Vec>, locked }];
+  }
+  // The point that is clicked last moves, but a pivot only where both are pivots.
+  const fixed = (point: string) => scene.points.get(point)!.fixed, [a, b] = measure.points;
+  const [from, to] = fixed(b) && !fixed(a) ? [b, a] : [a, b], at = polar(scene.at(from)!, value, heading(scene.at(from)!, scene.at(to)!));
+  if (fixed(to)) return [{ do: "set", path: ["frame", "points", to], value: at.map((each) => `${Number((1e3 * each).toFixed(4))} mm`) }];
+  return [{ do: "move", points: { [to]: at }, locked }];
+}
+
+/** Writes the side of a plate that the text has as a number; null where it has none. */
+function written(scene: Scene, points: [string, string], text: string, links: { [link: string]: Entry }): Action | null {
+  for (const [link, entry] of Object.entries(links)) {
+    const at = points.map((point) => scene.links[link]?.indexOf(point) ?? -1).sort((a, b) => a - b).join();
+    if (typeof entry === "string" || Array.isArray(entry)) continue;
+    const { length, lengths } = entry;
+    if (at === "0,1" && typeof length === "string") return { do: "set", path: ["links", link, "length"], value: text };
+    if (!Array.isArray(lengths) || lengths.length !== 2) continue;
+    const [a, c] = lengths.map(String), set = (path: string[], value: unknown) => ({ do: "set", path: ["links", link, ...path], value });
+    if (at === "0,1") return set(["lengths"], [text, c]);
+    if (at === "0,2") return set(["lengths"], [a, text]);
+    // The third side is that of the angle between the two.
+    const [o, p, q] = scene.corners(link), right = (p[0] - o[0]) * (q[1] - o[1]) - (p[1] - o[1]) * (q[0] - o[0]) < 0;
+    if (at === "1,2") return set(["angle"], `${right ? "-" : ""}acos(((${a})^2 + (${c})^2 - (${text})^2)/(2*(${a})*(${c})))`);
+  }
+  return null;
+}
+
+/** A bar as it is, of a plate the two points whose side is nearest to a place. */
+export function nearestSide(scene: Scene, link: string, at: Vec): Item[] {
+  const points = scene.links[link].filter((point) => scene.at(point));
+  if (points.length < 3) return [{ kind: "link", name: link }];
+  const sides = points.map((point, k) => [point, points[(k + 1) % points.length]]);
+  // How much longer the way over the place is than the side itself.
+  const off = (each: string[]) => each.reduce((sum, point) => sum + distance(scene.at(point)!, at), 0) - distance(scene.at(each[0])!, scene.at(each[1])!);
+  return sides.reduce((best, each) => (off(each) < off(best) ? each : best)).map((name) => ({ kind: "point", name }));
+}
