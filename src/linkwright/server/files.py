@@ -120,8 +120,10 @@ class Files:
         return [name for _unused, name in sorted(found, reverse=True)]
 
     def drafts(self) -> list[Plain]:
-        """Every draft that differs from its file: its text, when it was stored (``time``, ms), whether the file is there
-        (``saved``); the newest first."""
+        """Every draft that differs from its file, the newest first.
+
+        ``time``: when it was stored, ms; ``saved``: whether the file is there.
+        """
         found = []
         for path in (self.folder / _DRAFTS).glob("*.json"):
             with suppress(OSError, ValueError, KeyError, TypeError, LinkwrightError):

@@ -15,7 +15,7 @@ from linkwright.words.message import in_language
 
 
 def listing(files: Files, language: str) -> Plain:
-    """``files``: name, time (ms); ``drafts``: with ``saved`` and the number of links; ``gallery``: title and purpose."""
+    """Files and drafts with their times (ms), drafts with their number of links; titles in the gallery."""
     return {
         "files": saved(files),
         "drafts": [_draft(each) for each in files.drafts()],
