@@ -16,8 +16,9 @@ from linkwright.file_check import checked_text
 from linkwright.files.model_file import gallery_names, read_text
 from linkwright.files.source import read_source
 from linkwright.files.write import Document
+from linkwright.server.agreement import unmet
 from linkwright.server.background import Background
-from linkwright.server.draft import picture
+from linkwright.server.draft import Draft
 from linkwright.server.edits import edited
 from linkwright.server.files import Files
 from linkwright.server.folder import listing
@@ -191,7 +192,8 @@ def solved(text: str, language: str, folder: str = "") -> Plain:
         "outline": outline(text),
     }
     try:
-        found["picture"] = picture(text)
+        draft = Draft(text)
+        found["picture"] = {**draft.picture(), "unmet": unmet(draft)}
         if mechanism is not None:
             from linkwright.kinematics.solve import solve_motion
             from linkwright.page.content import page_data
