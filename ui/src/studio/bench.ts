@@ -68,9 +68,11 @@ export interface Settings {
   /** How often each tool has been used: its hint goes after three times. */
   used: Partial<Record<ToolName, number>>;
   shown: Partial<Record<ShownName, boolean>>;
+  /** Sections of the inspector that have been opened or shut by hand. */
+  folds: Record<string, boolean>;
 }
 
-const SETTINGS: Settings = { theme: "", slim: null, inspector: null, dock: null, snap: true, grid: 0, unit: "mm", used: {}, shown: {} };
+const SETTINGS: Settings = { theme: "", slim: null, inspector: null, dock: null, snap: true, grid: 0, unit: "mm", used: {}, shown: {}, folds: {} };
 const STORED = "linkwright.settings";
 
 export class Bench {
