@@ -200,7 +200,10 @@ export class Board implements Sheet {
       this.whole = true;
       this.fit();
     }
-    if (this.stale.all) this.drawAll();
+    if (this.stale.all) {
+      this.drawAll();
+      this.lookAgain();
+    }
     const { below, above, over } = this.marks, tool = this.tool;
     for (const each of [below, above, over]) each.begin();
     this.placed = drawMarks(this, below, above);
@@ -319,6 +322,12 @@ export class Board implements Sheet {
   }
 
   private kept: number | null = null;
+
+  /** The pointer rests, but what is under it may be something else now. */
+  private lookAgain(): void {
+    const { spot, bench } = this;
+    if (spot && !bench.page.playing.value) this.spot = this.spotAt(spot.screen, { shiftKey: spot.shift, altKey: spot.alt }, spot.touch);
+  }
 
   /** The pointer is there: what it is on lights up. */
   point(spot: Spot | null): void {
