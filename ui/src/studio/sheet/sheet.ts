@@ -155,10 +155,15 @@ export class Board implements Sheet {
     return point?.links.length === 1 && !point.fixed && !this.scene.guided.includes(name) && this.scene.links[point.links[0]].length === 2;
   }
 
+  /** The machine or the drawing as it stands, with directions and loads. */
+  get stand(): Stand {
+    const session = this.solved;
+    return new Stand(this.scene, this.picture, session, session ? this.place : 0);
+  }
+
   /** Loads as they are drawn now. */
   get loads(): DrawnLoad[] {
-    const session = this.solved;
-    return this.bench.shows("loads") ? drawnLoads(new Stand(this.scene, this.picture, session, session ? this.place : 0), this.camera) : [];
+    return this.bench.shows("loads") ? drawnLoads(this.stand, this.camera) : [];
   }
 
   /** A place on the grid, unless it is held off. */
