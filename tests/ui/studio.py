@@ -21,9 +21,6 @@ from linkwright.cli import main
 #: What the page may ask, by the ends of its addresses.
 REQUESTS = (
     "files",
-    "folder",
-    "rename",
-    "discard",
     "open",
     "read",
     "keep",
@@ -35,6 +32,8 @@ REQUESTS = (
     "curve",
     "optimize",
     "goals",
+    "tasks",
+    "synthesis",
     "candidates",
     "enough",
     "take",

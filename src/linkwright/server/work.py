@@ -16,16 +16,14 @@ from linkwright.file_check import checked_text
 from linkwright.files.model_file import gallery_names, read_text
 from linkwright.files.source import read_source
 from linkwright.files.write import Document
-from linkwright.server.agreement import unmet
 from linkwright.server.background import Background
-from linkwright.server.draft import Draft
+from linkwright.server.draft import picture
 from linkwright.server.edits import edited
 from linkwright.server.files import Files
-from linkwright.server.folder import listing
 from linkwright.server.outline import outline
 from linkwright.server.picture import completed
 from linkwright.server.request import mapping, mappings, number, numbers, text
-from linkwright.words import LANGUAGES, _, pgettext
+from linkwright.words import LANGUAGES, _
 from linkwright.words.message import in_language
 
 #: What the studio hands out, by the ending of the file.
@@ -43,9 +41,6 @@ class Work:
         self._foreseen: tuple[str, str, str, Plain] | None = None
         self.answers: Mapping[str, Callable[[Plain], Plain]] = {
             "files": lambda asked: {"files": files.names(), "drafts": files.unsaved(), "gallery": gallery_names()},
-            "folder": lambda asked: listing(files, language_of(asked)),
-            "rename": lambda a: files.rename(text(a, "name"), text(a, "to"), text(a, "version")),
-            "discard": lambda a: files.discard(text(a, "name")),
             "open": self._open,
             "read": lambda a: {"text": self._read(a)},
             "keep": lambda a: files.keep(
@@ -59,6 +54,8 @@ class Work:
             "curve": self._curve,
             "optimize": self._optimize,
             "goals": self._goals,
+            "tasks": self._tasks,
+            "synthesis": self._synthesis,
             "candidates": lambda a: self.background.state(),
             "enough": lambda a: self.background.end(),
             "take": self._take,
@@ -67,8 +64,8 @@ class Work:
 
     def _open(self, asked: Plain) -> Plain:
         """A file; without a name what was drawn last and never saved, or with ``fresh`` a new one."""
-        window, language = text(asked, "window", ""), language_of(asked)
-        new = new_text(language)
+        window = text(asked, "window", "")
+        new = new_text(language_of(asked))
         if asked.get("gallery"):
             found = self._read(asked)
             return {**self.files.open(self.files.fresh(text(asked, "gallery"), window)), "text": found}
@@ -78,12 +75,7 @@ class Work:
         unsaved = [] if asked.get("fresh") else self.files.unsaved()
         if unsaved:
             return self.files.open(unsaved[0])
-        numbered = bool(asked.get("numbered"))
-        stem = pgettext("studio", "Drawing").translate(language) if numbered else "machine"
-        return {
-            **self.files.open(self.files.fresh(f"{stem} " if numbered else stem, window, numbered=numbered)),
-            "text": new,
-        }
+        return {**self.files.open(self.files.fresh("machine", window)), "text": new}
 
     def _edit(self, asked: Plain) -> Plain:
         """The text after actions of drawing, one step: what the user should know, new names, what can be drawn."""
@@ -135,6 +127,19 @@ class Work:
         from linkwright.server.search import optimised
 
         return self.background.begin("optimum", optimised(text(asked, "text")), language_of(asked))
+
+    def _tasks(self, asked: Plain) -> Plain:
+        """The tasks of synthesis as forms."""
+        from linkwright.server.synthesis import task_forms
+
+        return {"tasks": task_forms(language_of(asked))}
+
+    def _synthesis(self, asked: Plain) -> Plain:
+        """Begins the search for linkages that meet the demands of a task."""
+        from linkwright.server.synthesis import designed
+
+        work = designed(text(asked, "task"), mapping(asked, "demands"))
+        return self.background.begin("synthesis", work, language_of(asked))
 
     def _goals(self, asked: Plain) -> Plain:
         """What an optimisation of a text's model can minimize or limit."""
@@ -192,8 +197,7 @@ def solved(text: str, language: str, folder: str = "") -> Plain:
         "outline": outline(text),
     }
     try:
-        draft = Draft(text)
-        found["picture"] = {**draft.picture(), "unmet": unmet(draft)}
+        found["picture"] = picture(text)
         if mechanism is not None:
             from linkwright.kinematics.solve import solve_motion
             from linkwright.page.content import page_data
