@@ -21,6 +21,9 @@ from linkwright.cli import main
 #: What the page may ask, by the ends of its addresses.
 REQUESTS = (
     "files",
+    "folder",
+    "rename",
+    "discard",
     "open",
     "read",
     "keep",

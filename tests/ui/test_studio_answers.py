@@ -44,7 +44,7 @@ def test_a_machine_given_by_lengths_is_drawn_where_it_stands_and_drawn_on(tmp_pa
         assert answer["picture"]["points"]["C"] == pytest.approx([b[0] + 1.0, b[1]], abs=1e-4)
         grown = lw.loads(text)
         assert lw.structure(grown).mobility == 1
-        assert grown.dimension("bar1.C.x") == pytest.approx(1.0, abs=2e-4)
+        assert grown.dimension("bar1.length") == pytest.approx(1.0, abs=2e-4)
         assert grown.dimension("coupler.length") == mechanism.dimension("coupler.length")
 
 

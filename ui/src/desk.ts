@@ -6,6 +6,7 @@ import { save, type Page } from "./living";
 import { code, type Values } from "./solver";
 import type { Action, Picture } from "./picture";
 import { Session } from "./session";
+import { keepSteps, recallSteps } from "./steps";
 import type { Gap, Outline, Structure } from "./studio/outline";
 
 export interface Found {
@@ -46,6 +47,23 @@ interface Edited {
   notes: string[];
   made: string[];
   picture: Picture;
+}
+
+/** What can be opened; times in ms of the clock. */
+export interface Folder {
+  files: { name: string; time: number }[];
+  /** Drawings that differ from their file; `saved`: whether there is one. */
+  drafts: { name: string; time: number; saved: boolean; links: number }[];
+  gallery: { name: string; title: string; purpose: string }[];
+}
+
+/** What is opened: a file or draft, a machine of the gallery, a new drawing; without any what was not saved last time. */
+export interface Asked {
+  name?: string;
+  gallery?: string;
+  fresh?: boolean;
+  /** New drawings are numbered: "Drawing 3". */
+  numbered?: boolean;
 }
 
 /** Where the points of a linkage are (m), which links join them, the guides of its blocks (rad). */
@@ -116,6 +134,8 @@ export class Desk {
   /** Whether the server has not answered since a question or a change that it does not have. */
   readonly gone = signal(false);
   private unkept = false;
+  /** How many files are being made for downloads. */
+  readonly making = signal(0);
   readonly sought = signal<Sought | null>(null);
   private readonly window = crypto.randomUUID();
   private readonly token = new URLSearchParams(location.search).get("token") ?? "";
@@ -138,6 +158,7 @@ export class Desk {
     page.history = this.history;
     window.setInterval(() => void this.watch(), WATCH);
     window.addEventListener("beforeunload", (event) => this.unkept && event.preventDefault());
+    window.addEventListener("pagehide", () => this.remember());
   }
 
   say = (key: string, values: Record<string, string> = {}) => {
@@ -233,11 +254,41 @@ export class Desk {
     void this.keep();
   }
 
-  open(asked: { name?: string; gallery?: string; fresh?: boolean }): Promise<void> {
+  open(asked: Asked): Promise<void> {
     return (this.ready = this.opened(asked));
   }
 
-  private async opened(asked: { name?: string; gallery?: string; fresh?: boolean }): Promise<void> {
+  /** Opens a text as a new drawing that has not been saved. */
+  async begin(text: string): Promise<void> {
+    const { file } = this;
+    await this.open({ fresh: true, numbered: true });
+    if (file !== this.file) this.put(text, 0);
+  }
+
+  /** The steps back and forth outlive the page. */
+  private remember(): void {
+    keepSteps(this.file.name, { ...this.history.states, now: this.text.value });
+  }
+
+  folder(): Promise<Folder | null> {
+    return this.ask<Folder>("folder");
+  }
+
+  /** Gives the open file another name; false where that is taken. */
+  async rename(asked: string): Promise<boolean> {
+    const name = named(asked), { file } = this;
+    if (name === file.name) return true;
+    await this.keep();
+    const found = await this.ask<{ renamed: boolean; name: string; version: string; serial: number }>("rename", { name: file.name, to: name, version: file.version });
+    if (!found || file !== this.file) return true; // why is in the note
+    if (!found.renamed) return false;
+    this.file = { name: (this.name.value = found.name), version: found.version, serial: found.serial };
+    if (this.dirty.value) void this.keep();
+    return true;
+  }
+
+  private async opened(asked: Asked): Promise<void> {
+    this.remember();
     await this.queue;
     if (this.elsewhere.value !== null || this.unkept) return; // what is not stored yet would be lost
     const opened = await this.ask<{ name: string; text: string; version: string; serial: number; recovered: boolean }>("open", { ...asked, window: this.window });
@@ -245,6 +296,8 @@ export class Desk {
     this.name.value = opened.name;
     this.file = { name: opened.name, version: opened.version, serial: opened.serial };
     this.history.clear();
+    const steps = recallSteps(opened.name, plain(opened.text));
+    if (steps) this.history.restore(steps);
     this.elsewhere.value = null;
     this.onDisk.value = null;
     this.text.value = plain(opened.text);
@@ -257,27 +310,30 @@ export class Desk {
     this.drawing.value = this.session.value === null;
   }
 
-  /** Writes the file; another one than the open one only where there is none, or in place of the given version. */
-  save(asked: string, version?: string): Promise<void> {
-    return (this.saving = this.saving.then(() => this.saved(asked, version)));
+  /** Writes the file, and says whether it is written; another one than the open one only where there is none, or in place of the given version. */
+  async save(asked: string, version?: string): Promise<boolean> {
+    let done = false;
+    await (this.saving = this.saving.then(async () => void (done = await this.saved(asked, version))));
+    return done;
   }
 
-  private async saved(asked: string, version?: string): Promise<void> {
-    const name = /\.(ya?ml|json)$/i.test(asked) ? asked : `${asked}.yaml`, { file } = this, own = name === file.name;
+  private async saved(asked: string, version?: string): Promise<boolean> {
+    const name = named(asked), { file } = this, own = name === file.name;
     await this.keep();
     const text = this.text.value;
     const saved = await this.ask<{ saved: boolean; version: string; name: string; aside: string }>("save", {
       name, text, version: version ?? (own ? file.version : ""), draft: file.name,
     });
-    if (!saved || file !== this.file) return;
+    if (!saved || file !== this.file) return false;
     this.onDisk.value = saved.saved ? null : { name, version: saved.version };
-    if (!saved.saved) return;
+    if (!saved.saved) return false;
     this.onFile.value = true;
     if (own) file.version = saved.version;
     else this.file = { name: (this.name.value = saved.name), version: saved.version, serial: 0 };
     this.dirty.value = text !== this.text.value;
     if (!own && this.dirty.value) void this.keep();
     this.page.note.value = saved.aside ? this.say("set_aside", { name: saved.name, aside: saved.aside }) : this.dirty.value ? "" : this.say("saved");
+    return true;
   }
 
   /** Writes the file in place of the one on the disk that has been in the way. */
@@ -411,6 +467,11 @@ export class Desk {
 
   /** A report or an export of the machine, as a download. */
   async take(ending: string): Promise<void> {
+    this.making.value++;
+    await this.taken(ending).finally(() => this.making.value--);
+  }
+
+  private async taken(ending: string): Promise<void> {
     this.page.note.value = this.say("making");
     const found = await this.ask<{ content: string }>("take", { text: this.text.value, name: this.file.name, ending });
     if (!found) return;
@@ -473,6 +534,9 @@ export class Desk {
     void this.solve();
   }
 }
+
+/** The name of a file that a person has typed. */
+export const named = (asked: string) => (/\.(ya?ml|json)$/i.test(asked.trim()) ? asked.trim() : `${asked.trim()}.yaml`);
 
 /** A text with the ends of lines that a text field has; the server writes those of the file. */
 const plain = (text: string) => text.replaceAll("\r\n", "\n");

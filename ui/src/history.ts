@@ -31,6 +31,16 @@ export class History<State> {
     this.past.pop();
   }
 
+  /** All states, the nearest ones last. */
+  get states(): { past: State[]; future: State[] } {
+    return { past: this.past, future: this.future };
+  }
+
+  /** Goes on with the states of an earlier history. */
+  restore({ past, future }: { past: State[]; future: State[] }): void {
+    [this.past, this.future] = [past, future];
+  }
+
   clear(): void {
     [this.past, this.future] = [[], []];
   }

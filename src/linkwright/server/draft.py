@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from typing import Any
 
 from linkwright.core.data import Plain
@@ -10,10 +12,14 @@ from linkwright.errors import LinkwrightError
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
 from linkwright.files.compose import compose
+from linkwright.files.model_file import read_text
 from linkwright.files.write import Document, content_end, flow, scalar
-from linkwright.server.entries import fresh
-from linkwright.server.picture import picture_of
+from linkwright.server.entries import extent, fresh, section
+from linkwright.server.picture import completed, picture_of
 from linkwright.words import _
+
+#: Drawings below this size have finer steps, of this at least, m.
+SMALL, FINEST = 0.03, 1e-8
 
 
 class Draft(Document):
@@ -37,6 +43,46 @@ class Draft(Document):
         """What can be drawn, with the points that no drawing gives."""
         found = self.picture()
         return {**found, "points": {**self.places, **found["points"]}}
+
+    @property
+    def step(self) -> float:
+        """What drawn coordinates and measured lengths are multiples of, m: 0.1 mm, less in a machine below 30 mm."""
+        size = extent(self.shown()["points"].values())
+        return 1e-4 if not 0 < size < SMALL else max(FINEST, 10.0 ** (math.floor(math.log10(size / SMALL)) - 4))
+
+    def where(self, point: str) -> complex:
+        """Where a point is drawn, m; raises LinkwrightError where nothing tells."""
+        places = self.shown()["points"]
+        if point not in places:
+            raise LinkwrightError(
+                _("there is no place for the point {name!r} on the paper", code="studio.no_point", name=point)
+            )
+        return complex(*places[point])
+
+    def complete(self, points: Iterable[str]) -> None:
+        """Finds where points of links stand that nothing draws, where the text makes a machine."""
+        shown = self.shown()
+        used = {point for each in shown["links"].values() for point in each}
+        if set(points) & used <= set(shown["points"]):
+            return
+        mechanism, _unused = read_text(self.text, self.name)
+        if mechanism is not None:
+            from linkwright.kinematics.solve import solve_motion
+
+            with suppress(LinkwrightError):
+                self.places |= completed(shown, solve_motion(mechanism))["points"]
+
+    def draw(self, point: str, place: complex, *, fixed: bool | None = None, fine: bool = False) -> None:
+        """Writes where a point stands; ``fixed``: in the frame (None: where it is), ``fine``: in tenths of a step."""
+        written = coordinates(place, self.step * (0.1 if fine else 1.0))
+        if not (point in self.picture()["fixed"] if fixed is None else fixed):
+            self.put("drawing", point, written)
+            return
+        points = section(self.root, "frame", "points")
+        if points is None:
+            self.put("frame", "points", {point: written})
+        else:
+            self.write_key(points, point, flow(written))
 
     @property
     def root(self) -> MappingNode:
@@ -169,6 +215,19 @@ class Draft(Document):
 def picture(text: str) -> Plain:
     """What of a text can be drawn before it is a model."""
     return Draft(text).picture()
+
+
+def length(value: float, step: float) -> str:
+    """A length or coordinate (m) as a multiple of a step."""
+    digits = max(0, -math.floor(math.log10(step) + 3 + 1e-9))
+    text = f"{round(value / step) * step * 1e3:.{digits}f}"
+    text = text.rstrip("0").rstrip(".") if "." in text else text
+    return f"{'0' if text == '-0' else text} mm"
+
+
+def coordinates(place: complex, step: float) -> list[str]:
+    """Coordinates (m) of a place."""
+    return [length(each, step) for each in (place.real, place.imag)]
 
 
 def _block(entries: Mapping[str, Any], indent: str) -> list[str]:

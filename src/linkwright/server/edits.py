@@ -7,7 +7,8 @@ from typing import Any, NamedTuple
 
 from linkwright.core.data import Plain
 from linkwright.errors import LinkwrightError
-from linkwright.server import cams, drawn, masses, pairs, request
+from linkwright.server import cams, drawn, links, masses, pairs, request, values
+from linkwright.server.agreement import agree, unmet
 from linkwright.server.draft import Draft
 from linkwright.server.removing import remove
 from linkwright.words import _
@@ -55,8 +56,12 @@ def edited(text: str, actions: Sequence[Mapping[str, Any]]) -> Edited:
                 _("there is no drawing action {name!r}", code="studio.no_action", name=str(action.get("do")))
             )
         draft.places |= request.places(action, "places")
+        known, excused = len(draft.made), unmet(draft)
         notes.append(act(draft, action) or "")
-    return Edited(draft.text, [each for each in notes if each], draft.made, draft.picture())
+        agree(draft, draft.made[known:], excused)
+    return Edited(
+        draft.text, [each for each in notes if each], draft.made, {**draft.picture(), "unmet": unmet(draft)}
+    )
 
 
 def _optimize(draft: Draft, action: Mapping[str, Any]) -> None:
@@ -66,7 +71,10 @@ def _optimize(draft: Draft, action: Mapping[str, Any]) -> None:
 
 _ACTIONS: dict[str, Callable[[Draft, Mapping[str, Any]], str | None]] = {
     "point": drawn.point,
-    "link": drawn.link,
+    "fix": drawn.fix,
+    "move": drawn.move,
+    "link": links.link,
+    "add_point": links.add_point,
     "driver": pairs.driver,
     "guide": pairs.guide,
     "slot": pairs.slot,
@@ -75,6 +83,9 @@ _ACTIONS: dict[str, Callable[[Draft, Mapping[str, Any]], str | None]] = {
     "rack": cams.add_rack,
     "mass": masses.mass,
     "load": masses.load,
+    "add": values.add,
+    "set": values.put,
+    "unset": values.unset,
     "optimize": _optimize,
     "remove": remove,
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 
 from linkwright.core.expressions import amount
@@ -54,3 +55,9 @@ def points_of(link: Node | None) -> list[str]:
     points, also = link.get("points"), section(link, "also")
     names = [name for name, _unused in points] if isinstance(points, MappingNode) else texts(points)
     return [*names, *(point for point, _unused in also or ())]
+
+
+def extent(places: Iterable[list[float]]) -> float:
+    """Diagonal of a drawing, m."""
+    axes = [*zip(*places, strict=True)]
+    return math.hypot(*(max(each) - min(each) for each in axes))

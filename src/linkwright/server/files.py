@@ -96,12 +96,15 @@ class Files:
         serial = 0 if draft is None else draft["serial"]
         return {**found, "name": name, "text": shown, "serial": serial, "recovered": recovered}
 
-    def fresh(self, stem: str, window: str) -> str:
-        """A name that no file, no draft and no other window has; reserved for the window until it opens another."""
+    def fresh(self, stem: str, window: str, *, numbered: bool = False) -> str:
+        """A name that no file, no draft and no other window has; reserved for the window until it opens another.
+
+        ``numbered``: with a number from the first one on.
+        """
         with self._lock:
             self._reserved = {name: owner for name, owner in self._reserved.items() if owner != window}
             place = 1
-            while self._taken(name := f"{stem}{place if place > 1 else ''}.yaml"):
+            while self._taken(name := f"{stem}{place if place > 1 or numbered else ''}.yaml"):
                 place += 1
             self._reserved[name] = window
             return name
@@ -115,6 +118,49 @@ class Files:
                 if draft is not None and not self.path(draft["name"]).exists():
                     found.append((draft["serial"], draft["name"]))
         return [name for _unused, name in sorted(found, reverse=True)]
+
+    def drafts(self) -> list[Plain]:
+        """Every draft that differs from its file, the newest first.
+
+        ``time``: when it was stored, ms; ``saved``: whether the file is there.
+        """
+        found = []
+        for path in (self.folder / _DRAFTS).glob("*.json"):
+            with suppress(OSError, ValueError, KeyError, TypeError, LinkwrightError):
+                name = str(json.loads(path.read_bytes())["name"])
+                draft, there = self._draft(name), self.disk(name)
+                if draft is not None and _plain(draft["text"]) != _plain(there["text"]):
+                    time_ms = draft["serial"] // 1000
+                    found.append(
+                        {"name": name, "text": draft["text"], "time": time_ms, "saved": there["version"] != ""}
+                    )
+        return sorted(found, key=lambda each: each["time"], reverse=True)
+
+    def rename(self, name: str, to: str, version: str) -> Plain:
+        """Gives a file and its draft another name that nothing has; ``renamed``: whether it could."""
+        source, target, name, to = self.path(name), self.path(to), self.name(name), self.name(to)
+        with self._alone():
+            there, draft = self.disk(name), self._draft(name)
+            same = os.path.exists(source) and os.path.exists(target) and os.path.samefile(source, target)
+            taken = self._draft(to) is not None or to in self._reserved or (os.path.exists(target) and not same)
+            if taken or there["version"] != version:
+                return {"renamed": False, "name": name, "version": version, "serial": 0}
+            serial = 0
+            if there["version"]:
+                make_folder(target.parent)
+                source.rename(target)
+            if draft is not None:
+                serial = self._store(to, draft["text"], draft["window"])
+                self._draft_path(name).unlink(missing_ok=True)
+            if name in self._reserved:
+                self._reserved[to] = self._reserved.pop(name)
+        return {"renamed": True, "name": to, "version": there["version"], "serial": serial}
+
+    def discard(self, name: str) -> Plain:
+        """Removes a draft; the file stays."""
+        with self._alone():
+            self._draft_path(self.name(name)).unlink(missing_ok=True)
+        return {}
 
     def keep(self, name: str, text: str, window: str, serial: int) -> Plain:
         """Stores a draft; where another window has stored one since ``serial``, its text instead (``other``)."""

@@ -13,8 +13,7 @@ from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.fields.nodes import Node, Scalar
 from linkwright.files.write import flow
 from linkwright.server import request
-from linkwright.server.draft import Draft
-from linkwright.server.drawn import coordinates
+from linkwright.server.draft import Draft, length
 from linkwright.units import number
 from linkwright.words import _
 
@@ -32,24 +31,24 @@ def mass(draft: Draft, action: Mapping[str, Any]) -> str:
     places = [draft.shown()["points"].get(point) for point in draft.shown()["links"][name][:2]]
     if len(places) < 2 or None in places:
         return ""
-    length = math.dist(*places)
+    long = math.dist(*places)
     known = _quantity(old_inertia, "inertia")
     if old_inertia is not None and (
-        known is None or old_mass is None or not _nearly_equal(known, old_mass * length**2 / 12)
+        known is None or old_mass is None or not _nearly_equal(known, old_mass * long**2 / 12)
     ):
         return _(
             "{link}: the moment of inertia that the text has stays; check whether it fits the new mass.",
             code="studio.inertia_stays",
             link=name,
         )
-    inertia = f"{number(size * length**2 / 12, 4)} kg·m²" if size else "0 kg·m²"
+    inertia = f"{number(size * long**2 / 12, 4)} kg·m²" if size else "0 kg·m²"
     draft.write_key(draft.link(name), "inertia", inertia)
     return _(
         "{link}: moment of inertia {inertia}, as of an even bar {length} long about its "
         "middle (m·l²/12); change it in the text where the link is of another shape.",
         code="studio.bar_inertia",
         link=name,
-        length=coordinates([length])[0],
+        length=length(long, draft.step),
         inertia=inertia,
     )
 

@@ -2,85 +2,119 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Mapping
 from typing import Any
 
+from linkwright.core.data import Plain
 from linkwright.errors import LinkwrightError
+from linkwright.fields.nodes import Mapping as MappingNode
+from linkwright.files.write import flow
+from linkwright.joints.base import JOINTS
 from linkwright.joints.gear import GearPair
 from linkwright.joints.prismatic import PrismaticJoint
 from linkwright.server import request
-from linkwright.server.draft import Draft
-from linkwright.server.drawn import FINEST, coordinates, put_link, put_point
-from linkwright.server.entries import fresh
+from linkwright.server.draft import Draft, length
+from linkwright.server.drawn import new_point, put_point
+from linkwright.server.entries import word
+from linkwright.server.links import fresh_link, put_link
 from linkwright.units import number
 from linkwright.words import _
 
+#: Speeds of new drives.
+TURNING, SLIDING = "60 rpm", "0.1 m/s"
 #: Two numbers of teeth.
 TEETH = re.compile(r"\s*([1-9][0-9]{0,5})\s*[:：]\s*([1-9][0-9]{0,5})\s*")
 
 _NO_SLOT = _("{name!r} is not a link with two drawn points along which something could slide", code="studio.no_slot")
 
 
+_NOT_DRIVEN = _(
+    "{name!r} cannot be driven: it needs a fixed point to turn about, or a guide to slide along",
+    code="studio.no_drive",
+)
+
+
 def driver(draft: Draft, action: Mapping[str, Any]) -> None:
-    """A link turned about a pin of the frame, evenly."""
-    link, about = request.name(action, "link"), request.name(action, "about")
-    draft.put_top("driver", {"turn": link, "about": about, "speed": "60 rpm"})
+    """A link turned about a pin, of the frame where none is named, or a block moved along its guide, evenly."""
+    if "slide" in action:
+        name = request.name(action, "slide")
+        if name not in _slides(draft):
+            raise LinkwrightError(_NOT_DRIVEN.format(name=name))
+        _drive(draft, {"slide": name, "speed": SLIDING})
+        return
+    link = request.name(action, "link")
+    draft.link(link)
+    shown = draft.picture()
+    pin = next((point for point in shown["links"][link] if point in shown["fixed"]), None)
+    slide = next(
+        (key for key, joint in _slides(draft).items() if link in (word(joint, "block"), word(joint, "guide"))), None
+    )
+    if "about" in action or pin is not None:
+        about = request.name(action, "about") if "about" in action else pin
+        _drive(draft, {"turn": link, "about": about, "speed": TURNING})
+    elif slide is not None:
+        _drive(draft, {"slide": slide, "speed": SLIDING})
+    else:
+        raise LinkwrightError(_NOT_DRIVEN.format(name=link))
+
+
+def _drive(draft: Draft, entry: Plain) -> None:
+    """Writes the drive: in place of a single one, as the first of several where they are named."""
+    drivers = draft.section("drivers")
+    if drivers is not None and drivers.entries:
+        draft.write(drivers.entries[0].value, flow(entry))
+    else:
+        draft.put_top("driver", entry)
+
+
+def _slides(draft: Draft) -> dict[str, MappingNode]:
+    """The joints along which something slides."""
+    joints = ((key, joint) for key, joint in draft.section("joints") or () if isinstance(joint, MappingNode))
+    kinds = {key: (joint, word(joint, "kind")) for key, joint in joints}
+    return {
+        key: joint for key, (joint, kind) in kinds.items() if kind in JOINTS and JOINTS[kind].coordinate == "slide"
+    }
 
 
 def guide(draft: Draft, action: Mapping[str, Any]) -> None:
-    """A block on a fixed guide through a point's place in the drawing."""
-    shown = draft.shown()
-    link, at = request.name(action, "link"), request.name(action, "at")
-    if at not in shown["points"]:
-        raise LinkwrightError(
-            _("there is no place for the point {name!r} on the paper", code="studio.no_point", name=at)
-        )
-    through = fresh("G", [*shown["points"], *shown["fixed"]])
-    put_point(draft, through, shown["points"][at], fixed=True)
-    angle = f"{number(round(request.number(action, 'angle'), 3))} deg"
-    draft.put_new(
-        "joints",
-        "guide",
-        {
-            "kind": PrismaticJoint.kind,
-            "guide": "frame",
-            "through": through,
-            "direction": angle,
-            "block": link,
-            "at": at,
-        },
-    )
+    """A block on a fixed guide through a point's place in the drawing; without a link a new block on the point."""
+    at = request.name(action, "at")
+    draft.complete([at])
+    place, shown = draft.where(at), draft.shown()
+    link = request.name(action, "link") if "link" in action else fresh_link(draft, "slider")
+    if link not in shown["links"]:
+        put_link(draft, link, [at])
+    through = new_point(draft, stem="G")
+    put_point(draft, through, place, fixed=True)
+    direction = f"{number(round(request.number(action, 'angle'), 3))} deg"
+    entry = {"kind": PrismaticJoint.kind, "guide": "frame", "through": through, "direction": direction}
+    draft.put_new("joints", "guide", {**entry, "block": link, "at": at})
 
 
 def slot(draft: Draft, action: Mapping[str, Any]) -> None:
     """A block that slides along a moving link, from its first point to its last, at a point next to or on it."""
-    shown, along, at = draft.shown(), request.name(action, "along"), request.name(action, "at")
-    ends = shown["links"].get(along, [])
-    if len(ends) < 2 or not all(point in shown["points"] for point in (*ends, at)):
+    along, at = request.name(action, "along"), request.name(action, "at")
+    ends = draft.picture()["links"].get(along, [])
+    draft.complete([*ends, at])
+    places = draft.shown()["points"]
+    if len(ends) < 2 or at in ends or not all(point in places for point in (*ends, at)):
         raise LinkwrightError(_NO_SLOT.format(name=along))
-    (ax, ay), (bx, by), (x, y) = (shown["points"][point] for point in (ends[0], ends[-1], at))
-    if not math.dist((ax, ay), (bx, by)):
+    start, end, place = (draft.where(point) for point in (ends[0], ends[-1], at))
+    if start == end:
         raise LinkwrightError(_NO_SLOT.format(name=along))
-    across = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / math.dist((ax, ay), (bx, by))
-    block = fresh("slider", list(shown["links"]))
+    across = ((end - start).conjugate() * (place - start)).imag / abs(end - start)
+    block = fresh_link(draft, "slider")
     put_link(draft, block, [at])
-    entry = {
-        "kind": PrismaticJoint.kind,
-        "guide": along,
-        "through": ends[0],
-        "direction": [ends[0], ends[-1]],
-        "block": block,
-        "at": at,
-    }
-    if abs(across) >= FINEST / 2:
-        entry["offset"] = coordinates([across])[0]
+    entry = {"kind": PrismaticJoint.kind, "guide": along, "through": ends[0], "direction": [ends[0], ends[-1]]}
+    entry |= {"block": block, "at": at}
+    if abs(across) >= draft.step / 2:
+        entry["offset"] = length(across, draft.step)
     draft.put_new("joints", "slot", entry)
 
 
 def gear(draft: Draft, action: Mapping[str, Any]) -> None:
-    """Two links as gears with numbers of teeth ``20:40``."""
+    """Two links as gears with numbers of teeth ``20:40``, one in the other with ``inside``."""
     text = request.text(action, "teeth")
     teeth = TEETH.fullmatch(text)
     if teeth is None:
@@ -89,4 +123,6 @@ def gear(draft: Draft, action: Mapping[str, Any]) -> None:
         )
     links = request.names(action, "links")
     entry = {"kind": GearPair.kind, "links": links, "teeth": [int(z) for z in teeth.groups()]}
+    if action.get("inside"):
+        entry["mesh"] = "internal"
     draft.put_new("joints", "mesh", entry)

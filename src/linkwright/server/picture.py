@@ -40,6 +40,7 @@ def picture_of(root: Node) -> Plain:
 def completed(shown: Plain, motion: Motion) -> Plain:
     """What can be drawn, with the points that no drawing gives where the solved machine has them (``placed``)."""
     missing = {point for points in shown["links"].values() for point in points} - set(shown["points"])
+    missing |= {point for link in shown.get("unmet", ()) for point in shown["links"][link]} - set(shown["fixed"])
     if not missing:
         return shown
     places, there = {}, _as_drawn(motion)

@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
-from linkwright.applied_loads.base import LOADS
 from linkwright.errors import LinkwrightError
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Node, Scalar, Sequence
+from linkwright.fields.nodes import Sequence
 from linkwright.files.write import flow
-from linkwright.joints.base import JOINTS
 from linkwright.server import request
 from linkwright.server.draft import Draft
 from linkwright.server.entries import fresh, texts, word
+from linkwright.server.references import named, points_of_entry, references
 from linkwright.words import _
 
-#: Keys of joints and loads whose words are no links.
-_NO_LINKS = ("kind", "at", "through")
+NEEDED = _("{name} needs the fixed point {point}; remove {name} first", code="studio.point_of")
 
 
 def remove(draft: Draft, action: Mapping[str, Any]) -> str:
@@ -56,7 +54,7 @@ def _joint(draft: Draft, point: str) -> str:
     for section in ("joints", "assembly"):
         if (found := draft.section(section)) is not None and found.get(point) is not None:
             draft.take_out(section, point)
-    driven = _remove_drives(draft, point)
+    driven = remove_drives(draft, point)
     named = {link: _renamed(draft, link, point) for link in joined[1:]}
     separated = tuple(_("point {point} of {link}", link=link, point=new) for link, new in named.items())
     named_links = tuple(_("frame", code="nouns.frame") if link == "frame" else link for link in joined)
@@ -79,7 +77,7 @@ def _joint(draft: Draft, point: str) -> str:
     )
 
 
-def _remove_drives(draft: Draft, point: str) -> bool:
+def remove_drives(draft: Draft, point: str) -> bool:
     """Takes the drives about a pin out; whether there were any."""
     before = draft.text
     for name, driver in list(draft.section("drivers") or ()):
@@ -96,16 +94,9 @@ def _point(draft: Draft, point: str, links: list[str]) -> str:
     for link in links:
         _take_off(draft, point, link)
     if not links:
-        for _unused, name, _unused2 in _references(draft, "frame", point):
-            raise LinkwrightError(
-                _(
-                    "{name} needs the fixed point {point}; remove {name} first",
-                    code="studio.point_of",
-                    point=point,
-                    name=name,
-                )
-            )
-        _take_fixed(draft, point)
+        for _unused, name, _unused2 in references(draft, "frame", point):
+            raise LinkwrightError(NEEDED.format(point=point, name=name))
+        take_fixed(draft, point)
     _remove_unused(draft)
     return _("Point {point} removed.", point=point)
 
@@ -131,7 +122,7 @@ def _take_off(draft: Draft, point: str, link: str) -> None:
                 link=link,
             )
         )
-    gone = dict.fromkeys((section, name) for section, name, _unused in _references(draft, link, point))
+    gone = dict.fromkeys((section, name) for section, name, _unused in references(draft, link, point))
     for section, name in gone:
         draft.take_out(section, name)
     _remove_what_names(draft, {name for section, name in gone if section == "joints"})
@@ -143,13 +134,12 @@ def _renamed(draft: Draft, link: str, point: str) -> str:
     new = fresh(
         "P", {*shown["points"], *shown["fixed"], *(each for ends in shown["links"].values() for each in ends)}
     )
-    nodes = [each for _unused, _unused2, each in _references(draft, link, point)]
-    nodes += [each for each in _points_of(draft.link(link)) if each.text == point]
+    nodes = [each for _unused, _unused2, each in references(draft, link, point)]
+    nodes += [each for each in points_of_entry(draft.link(link)) if each.text == point]
     for node in sorted(nodes, key=lambda each: each.start, reverse=True):
         draft.write(node, flow(node.text.removesuffix(point) + new))
-    if point in shown["points"] and _drawn(draft.link(link)):
-        place = [f"{1e3 * each:.10g} mm" for each in shown["points"][point]]
-        draft.put("drawing", new, place)
+    if point in shown["points"] and (_drawn(draft.link(link)) or draft.section("drawing")):
+        draft.draw(new, complex(*shown["points"][point]), fixed=False, fine=True)
     return new
 
 
@@ -158,59 +148,31 @@ def _drawn(link: MappingNode) -> bool:
     return isinstance(link.get("points"), Sequence) and link.get("length") is None and link.get("lengths") is None
 
 
-def _points_of(link: MappingNode) -> Iterator[Scalar]:
-    """The words of a link's entry that name its points."""
-    for node in (link.get(key) for key in ("points", "also", "mass_centre")):
-        if isinstance(node, MappingNode):
-            yield from (entry.key for entry in node.entries)
-        elif node is not None:
-            yield from _scalars(node)
-
-
-def _references(draft: Draft, link: str, point: str) -> Iterator[tuple[str, str, Scalar]]:
-    """Where joints and loads name a link's point: section, name, word."""
-    kinds: dict[str, dict[str, Mapping[str, object]]] = {
-        "joints": {kind: JOINTS[kind].fields() for kind in JOINTS},
-        "loads": {kind: LOADS[kind].fields() for kind in LOADS},
-    }
-    for section, known in kinds.items():
-        for name, entry in draft.section(section) or ():
-            if not isinstance(entry, MappingNode):
-                continue
-            fields: Mapping[str, object] = known.get(word(entry, "kind"), {})
-            for key, node in entry:
-                owner = getattr(fields.get(key), "of", None)
-                own = owner is not None and word(entry, owner) == link
-                for each in _scalars(node):
-                    if each.text == f"{link}.{point}" or (own and each.text == point):
-                        yield section, name, each
-
-
 def _remove_what_names(draft: Draft, gone: set[str]) -> None:
     """Joints, loads and drivers of links and joints that are gone, words about pins of no two links, and points of
     the frame for their guides alone."""
     guided = set()
     for section in ("joints", "loads", "drivers"):
         for key, node in list(draft.section(section) or ()):
-            if gone & set(_named(node)):
+            if gone & set(named(node)):
                 draft.take_out(section, key)
                 gone |= {key} if section == "joints" else set()
                 if section == "joints" and isinstance(node, MappingNode) and word(node, "guide") == "frame":
                     guided.add(word(node, "through"))
     driver = draft.root.get("driver")
-    if driver is not None and gone & set(_named(driver)):
+    if driver is not None and gone & set(named(driver)):
         draft.cut_top("driver")
     shown = draft.picture()
     ends = [*shown["fixed"], *(point for points in shown["links"].values() for point in points)]
     names = {"frame", *shown["links"]}
-    joints = [key for key, node in draft.section("joints") or () if names & set(_named(node))]
+    joints = [key for key, node in draft.section("joints") or () if names & set(named(node))]
     for section in ("assembly", "joints"):
         for key, _unused in list(draft.section(section) or ()):
             if ends.count(key) < 2 and key not in joints:
                 draft.take_out(section, key)
     for point in guided:
-        if ends.count(point) == 1 and not any(_references(draft, "frame", point)):
-            _take_fixed(draft, point)
+        if ends.count(point) == 1 and not any(references(draft, "frame", point)):
+            take_fixed(draft, point)
 
 
 def _remove_unused(draft: Draft) -> None:
@@ -221,7 +183,7 @@ def _remove_unused(draft: Draft) -> None:
             draft.take_out("drawing", point)
 
 
-def _take_fixed(draft: Draft, point: str) -> None:
+def take_fixed(draft: Draft, point: str) -> None:
     frame = draft.section("frame")
     points = frame.get("points") if frame is not None else None
     if isinstance(points, MappingNode) and points.get(point) is not None:
@@ -229,25 +191,6 @@ def _take_fixed(draft: Draft, point: str) -> None:
             draft.cut_top("frame")
         else:
             draft.cut(points, point)
-
-
-def _named(node: Node) -> Iterator[str]:
-    """What may be links among the words of an entry: of ``link.point`` the link."""
-    if isinstance(node, MappingNode):
-        for key, value in node:
-            if key not in _NO_LINKS:
-                yield from _named(value)
-    else:
-        yield from (each.text.split(".")[0] for each in _scalars(node))
-
-
-def _scalars(node: Node) -> Iterator[Scalar]:
-    if isinstance(node, Scalar):
-        yield node
-    for each in node.items if isinstance(node, Sequence) else ():
-        yield from _scalars(each)
-    for _unused, value in node if isinstance(node, MappingNode) else ():
-        yield from _scalars(value)
 
 
 _REMOVED = {"link": _link, "joint": _joint, "load": _load}

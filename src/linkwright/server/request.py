@@ -15,6 +15,8 @@ from linkwright.words.characters import one_line
 T = TypeVar("T")
 #: Largest coordinate that is drawn, m, and number at all; most letters of a name.
 FARTHEST, LARGEST, LONGEST = 1e6, 1e300, 200
+#: Most letters of a value.
+LONGEST_VALUE = 1000
 
 
 _BAD_REQUEST = _("the request is not a mapping in JSON with finite numbers; reload the page", code="studio.bad_body")
@@ -45,6 +47,12 @@ def text(asked: Mapping[str, Any], key: str, default: str | None = None) -> str:
 def name(asked: Mapping[str, Any], key: str) -> str:
     """The name of something in a model: one line without control characters."""
     return _name(asked.get(key), key)
+
+
+def line(asked: Mapping[str, Any], key: str) -> str:
+    """A text on one line, as a value of a file."""
+    value = text(asked, key)
+    return value if len(value) <= LONGEST_VALUE and value == one_line(value) else refuse(key, "text")
 
 
 def names(asked: Mapping[str, Any], key: str) -> list[str]:

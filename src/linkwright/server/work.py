@@ -16,14 +16,16 @@ from linkwright.file_check import checked_text
 from linkwright.files.model_file import gallery_names, read_text
 from linkwright.files.source import read_source
 from linkwright.files.write import Document
+from linkwright.server.agreement import unmet
 from linkwright.server.background import Background
-from linkwright.server.draft import picture
+from linkwright.server.draft import Draft
 from linkwright.server.edits import edited
 from linkwright.server.files import Files
+from linkwright.server.folder import listing
 from linkwright.server.outline import outline
 from linkwright.server.picture import completed
 from linkwright.server.request import mapping, mappings, number, numbers, text
-from linkwright.words import LANGUAGES, _
+from linkwright.words import LANGUAGES, _, pgettext
 from linkwright.words.message import in_language
 
 #: What the studio hands out, by the ending of the file.
@@ -41,6 +43,9 @@ class Work:
         self._foreseen: tuple[str, str, str, Plain] | None = None
         self.answers: Mapping[str, Callable[[Plain], Plain]] = {
             "files": lambda asked: {"files": files.names(), "drafts": files.unsaved(), "gallery": gallery_names()},
+            "folder": lambda asked: listing(files, language_of(asked)),
+            "rename": lambda a: files.rename(text(a, "name"), text(a, "to"), text(a, "version")),
+            "discard": lambda a: files.discard(text(a, "name")),
             "open": self._open,
             "read": lambda a: {"text": self._read(a)},
             "keep": lambda a: files.keep(
@@ -64,8 +69,8 @@ class Work:
 
     def _open(self, asked: Plain) -> Plain:
         """A file; without a name what was drawn last and never saved, or with ``fresh`` a new one."""
-        window = text(asked, "window", "")
-        new = new_text(language_of(asked))
+        window, language = text(asked, "window", ""), language_of(asked)
+        new = new_text(language)
         if asked.get("gallery"):
             found = self._read(asked)
             return {**self.files.open(self.files.fresh(text(asked, "gallery"), window)), "text": found}
@@ -75,7 +80,12 @@ class Work:
         unsaved = [] if asked.get("fresh") else self.files.unsaved()
         if unsaved:
             return self.files.open(unsaved[0])
-        return {**self.files.open(self.files.fresh("machine", window)), "text": new}
+        numbered = bool(asked.get("numbered"))
+        stem = pgettext("studio", "Drawing").translate(language) if numbered else "machine"
+        return {
+            **self.files.open(self.files.fresh(f"{stem} " if numbered else stem, window, numbered=numbered)),
+            "text": new,
+        }
 
     def _edit(self, asked: Plain) -> Plain:
         """The text after actions of drawing, one step: what the user should know, new names, what can be drawn."""
@@ -197,7 +207,8 @@ def solved(text: str, language: str, folder: str = "") -> Plain:
         "outline": outline(text),
     }
     try:
-        found["picture"] = picture(text)
+        draft = Draft(text)
+        found["picture"] = {**draft.picture(), "unmet": unmet(draft)}
         if mechanism is not None:
             from linkwright.kinematics.solve import solve_motion
             from linkwright.page.content import page_data

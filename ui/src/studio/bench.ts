@@ -31,6 +31,9 @@ export interface Item {
 
 export const same = (a: Item | null, b: Item | null) => a?.kind === b?.kind && a?.name === b?.name;
 
+/** What stands over the room and waits for an answer. */
+export type Dialog = { kind: "open"; part?: "drafts" | "files" | "gallery" } | { kind: "save" | "link" | "keys" | "palette" };
+
 /** How the sheet is looked at: what its bar and keys call. The sheet sets it. */
 export interface SheetView {
   /** Zooms about the middle of the sheet. */
@@ -65,9 +68,11 @@ export interface Settings {
   /** How often each tool has been used: its hint goes after three times. */
   used: Partial<Record<ToolName, number>>;
   shown: Partial<Record<ShownName, boolean>>;
+  /** Sections of the inspector that have been opened or shut by hand. */
+  folds: Record<string, boolean>;
 }
 
-const SETTINGS: Settings = { theme: "", slim: null, inspector: null, dock: null, snap: true, grid: 0, unit: "mm", used: {}, shown: {} };
+const SETTINGS: Settings = { theme: "", slim: null, inspector: null, dock: null, snap: true, grid: 0, unit: "mm", used: {}, shown: {}, folds: {} };
 const STORED = "linkwright.settings";
 
 export class Bench {
@@ -81,6 +86,11 @@ export class Bench {
   readonly layout = signal<"phone" | "desk" | "large">("desk");
   /** On a phone: how far the drawer with inspector and curves is pulled out. */
   readonly drawer = signal<"handle" | "half" | "full">("handle");
+  readonly dialog = signal<Dialog | null>(null);
+  /** Whether the name of the file is being edited in its place. */
+  readonly renaming = signal(false);
+  /** The link that was made last, while it is shown. */
+  readonly shared = signal<{ link: string; copied: boolean } | null>(null);
   readonly settings = signal<Settings>(stored());
   /** Where the pointer or the cross is, m; null: not on the sheet. */
   readonly cursor = signal<Vec | null>(null);

@@ -9,12 +9,20 @@ import { Bench } from "./bench";
 import { Dock } from "./dock/dock";
 import "./dock/dock.css";
 import "./frame/frame.css";
+import { fileCommands } from "./frame/commands";
 import { Divider } from "./frame/divider";
-import { listen } from "./frame/keys";
+import { type Commands, listen } from "./frame/keys";
+import { KeySheet } from "./frame/keysheet";
 import { DOCK, followWindow, INSPECTOR, SHUT, sized } from "./frame/layout";
 import { MenuHost } from "./frame/menu";
+import { OpenDialog } from "./frame/open";
+import { Palette } from "./frame/palette";
 import { Rail } from "./frame/rail";
+import { LinkDialog, SaveDialog } from "./frame/save";
+import { Shared } from "./frame/shared";
+import { linkInAddress, openLink, takeDropped } from "./frame/sharing";
 import { Status } from "./frame/status";
+import { Strips } from "./frame/strips";
 import { followTheme } from "./frame/theme";
 import { Tip } from "./frame/tip";
 import { titleOf, TopBar } from "./frame/topbar";
@@ -37,6 +45,7 @@ function Room({ bench }: { bench: Bench }) {
   return (
     <div class={`room ${layout.value}${slim ? " slim" : ""}`} style={style}>
       <TopBar bench={bench} />
+      <Strips bench={bench} />
       <Rail bench={bench} />
       <Stage bench={bench} />
       <Inspector bench={bench} />
@@ -44,10 +53,32 @@ function Room({ bench }: { bench: Bench }) {
       <Status bench={bench} />
       <Divider of="inspector" label={bench.say("divider.inspector")} value={inspector} least={INSPECTOR.least} most={Math.floor(INSPECTOR.share * wide)} set={(size) => bench.set({ inspector: size })} />
       {bench.dock.value && <Divider of="dock" label={bench.say("divider.dock")} value={dock} least={DOCK.least} most={Math.floor(DOCK.share * tall)} set={(size) => bench.set({ dock: size })} />}
+      <Asked bench={bench} />
+      <Shared bench={bench} />
       <MenuHost />
       <Tip />
     </div>
   );
+}
+
+/** The dialog that is open. */
+function Asked({ bench }: { bench: Bench }) {
+  const dialog = bench.dialog.value;
+  switch (dialog?.kind) {
+    case "open": return <OpenDialog key={dialog.part} bench={bench} part={dialog.part} />;
+    case "save": return <SaveDialog bench={bench} />;
+    case "link": return <LinkDialog bench={bench} />;
+    case "keys": return <KeySheet bench={bench} />;
+    case "palette": return <Palette bench={bench} />;
+    default: return null;
+  }
+}
+
+/** Files, palette and keys by their keys. */
+function shortcuts(bench: Bench): Commands {
+  const files = Object.values(fileCommands(bench)).filter(({ pressed }) => pressed).map(({ pressed, act }) => [pressed!, act] as const);
+  const dialog = (kind: "palette" | "keys") => () => void (bench.dialog.value = { kind });
+  return { ...Object.fromEntries(files), "Ctrl+K": dialog("palette"), "?": dialog("keys") };
 }
 
 /** The size of the window, as it is now. */
@@ -75,10 +106,12 @@ async function open(): Promise<void> {
   const page = new Page(data, []), desk = new Desk(page), bench = new Bench(desk);
   followTheme(bench);
   followWindow(bench);
-  listen(bench, {});
+  listen(bench, shortcuts(bench));
+  takeDropped(bench);
   render(<Room bench={bench} />, document.getElementById("page")!);
   Object.assign(globalThis, { linkwright: page, desk, bench });
-  await desk.open(file ? { name: file } : {});
+  const link = linkInAddress();
+  if (!link || !(await openLink(bench, link))) await desk.open(file ? { name: file } : { numbered: true });
 }
 
 void open();

@@ -1,8 +1,11 @@
 // The bar at the top: file, name and draft, undo, commands, language, theme, export, share.
+import { useEffect, useRef, useState } from "preact/hooks";
 import type { Bench } from "../bench";
+import { exportCommands, fileCommands } from "./commands";
 import { Square } from "./controls";
 import { Icon } from "./icons";
 import { type Choices, MenuButton } from "./menu";
+import { share } from "./sharing";
 import type { IconName } from "./signs";
 import { moment } from "./when";
 
@@ -10,14 +13,17 @@ export function TopBar({ bench }: { bench: Bench }) {
   return (
     <header class="top">
       <Brand />
+      <File bench={bench} />
       <Rule />
       <Name bench={bench} />
       <State bench={bench} />
       <Rule />
       <Steps bench={bench} />
-      <span class="between" />
+      <Find bench={bench} />
       <Language bench={bench} />
       <Theme bench={bench} />
+      <Export bench={bench} />
+      <button class="primary" onClick={() => void share(bench)}><Icon name="share" size={18} />{bench.say("share")}</button>
     </header>
   );
 }
@@ -33,13 +39,63 @@ function Brand() {
   );
 }
 
+export function fileChoices(bench: Bench): Choices {
+  const { fresh, open, drafts, gallery, save, saveAs, rename, link } = fileCommands(bench);
+  return [fresh, open, drafts, gallery, link, null, save, saveAs, rename];
+}
+
+function File({ bench }: { bench: Bench }) {
+  const name = bench.say("file");
+  return <MenuButton label={name} choices={() => fileChoices(bench)}>{name}<Icon name="chevron" size={14} /></MenuButton>;
+}
+
+function Find({ bench }: { bench: Bench }) {
+  return (
+    <button class="command" aria-keyshortcuts="Control+K" onClick={() => (bench.dialog.value = { kind: "palette" })}>
+      <Icon name="search" size={16} /><span>{bench.say("palette")}</span><kbd aria-hidden="true">Ctrl K</kbd>
+    </button>
+  );
+}
+
+function Export({ bench }: { bench: Bench }) {
+  const name = bench.say("export"), making = bench.desk.making.value;
+  return <MenuButton label={name} choices={() => exportCommands(bench)}><Icon name="export" size={18} />{making ? bench.say("export.making") : name}<Icon name="chevron" size={14} /></MenuButton>;
+}
+
 /** The name of a file as it is read: that of a drawing that was never saved has no ending. */
 export const titleOf = ({ desk }: Bench) => (desk.onFile.value ? desk.name.value : desk.name.value.replace(/\.\w+$/, "")) || desk.say("new");
 
 /** The name, edited in its place. */
 export function Name({ bench }: { bench: Bench }) {
-  const title = titleOf(bench);
-  return <b class="file-name">{title}</b>;
+  const title = titleOf(bench), { renaming, desk } = bench, field = useRef<HTMLInputElement>(null), [problem, setProblem] = useState("");
+  useEffect(() => {
+    if (renaming.value) field.current?.select();
+  }, [renaming.value]);
+  const end = () => {
+    renaming.value = false;
+    setProblem("");
+  };
+  const rename = async () => {
+    const wanted = field.current!.value.trim();
+    if (!wanted || wanted === title || (await desk.rename(wanted))) return end();
+    setProblem(bench.say("rename.taken", { name: wanted }));
+    field.current!.focus();
+  };
+  if (!renaming.value) return <button class="ghost file-name" data-tip={bench.say("file.rename")} onClick={() => (renaming.value = true)}><b>{title}</b></button>;
+  return (
+    <span class="file-name">
+      <input
+        ref={field} defaultValue={title} spellcheck={false} aria-label={bench.say("save.name")} aria-invalid={problem !== ""} aria-describedby="rename-problem"
+        onKeyDown={(event) => {
+          if (event.key === "Enter") void rename();
+          else if (event.key === "Escape") end();
+          event.stopPropagation();
+        }}
+        onBlur={() => !problem && void rename()}
+      />
+      <span id="rename-problem" role="alert" class={problem ? "rename-problem" : ""}>{problem}</span>
+    </span>
+  );
 }
 
 /** Whether what is drawn is kept as a draft or saved. */

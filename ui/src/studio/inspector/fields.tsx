@@ -102,7 +102,7 @@ export function Typing({ id, label, name, value, unit, set, follows = false, pre
     <span class="typing">
       <span class={`num${follows ? " follows" : ""}${fault ? " refused" : ""}`}>
         <input
-          id={id} ref={field} value={draft ?? number} placeholder={preset} readOnly={!set} inputMode="text" autocomplete="off" spellcheck={false}
+          id={id} ref={field} value={draft ?? number.replace(/^-/, "−")} placeholder={preset} readOnly={!set} inputMode="text" autocomplete="off" spellcheck={false}
           aria-label={name ?? (id ? undefined : label)} aria-invalid={fault ? true : undefined} aria-describedby={fault ? own : undefined}
           onInput={(event) => setDraft(event.currentTarget.value)} onKeyDown={keys} onFocus={(event) => set && event.currentTarget.select()}
           onBlur={(event) => draft !== null && !fault && void commit(event.currentTarget.value)}
@@ -181,11 +181,11 @@ export function Chips({ label, names, pick, symbols = true, children }: {
 export function Section({ bench, id, title, count, open = true, children }: {
   bench: Bench; id: string; title: string; count?: number; open?: boolean; children: () => ComponentChildren;
 }) {
-  const { folds } = bench.page, [shown, show] = useState(folds[id] ?? open), body = useId();
+  const { folds } = bench.settings.value, shown = folds[id] ?? open, body = useId();
   return (
     <section class="sec">
       <h3>
-        <button type="button" aria-expanded={shown} aria-controls={shown ? body : undefined} onClick={() => show((folds[id] = !shown))}>
+        <button type="button" aria-expanded={shown} aria-controls={shown ? body : undefined} onClick={() => bench.set({ folds: { ...folds, [id]: !shown } })}>
           <Icon name="chevron" size={14} />{title}{count !== undefined && <span>{count}</span>}
         </button>
       </h3>

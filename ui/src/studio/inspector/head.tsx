@@ -19,11 +19,14 @@ interface HeadProps {
   locks?: string[];
   tone?: "load" | "input";
   fixedName?: boolean;
+  /** Takes away what is not in the text. */
+  remove?: () => void;
 }
 
-export function Head({ bench, icon, title, children, item, locks = NONE, tone, fixedName = false }: HeadProps) {
+export function Head({ bench, icon, title, children, item, locks = NONE, tone, fixedName = false, remove: away }: HeadProps) {
   const locked = locks.length > 0 && locks.every((each) => bench.locked.value.has(each));
   const remove = async () => {
+    if (away) return away();
     if (!item || (await perform(bench, [{ do: "remove", items: [item] }]))) return;
     bench.select();
   };

@@ -90,7 +90,7 @@ function Lengths({ bench, name, link }: { bench: Bench; name: string; link: Tabl
 export function Coordinates({ bench, path, label, entry }: { bench: Bench; path: Path; label: string; entry: Table }) {
   return (
     <>
-      {Object.entries(entry).map(([point, value], k) => <Pair key={point} bench={bench} path={[...path, point]} label={k ? "" : label} point={point} values={words(value)} />)}
+      {Object.entries(entry).map(([point, value]) => <Pair key={point} bench={bench} path={[...path, point]} label={label} point={point} values={words(value)} />)}
     </>
   );
 }
@@ -98,7 +98,7 @@ export function Coordinates({ bench, path, label, entry }: { bench: Bench; path:
 function Pair({ bench, path, label, point, values }: { bench: Bench; path: Path; label: string; point: string; values: string[] }) {
   const take = (k: number) => (text: string) => set(bench, path, values.map((old, j) => (j === k ? text : old)));
   return (
-    <Row label={label || point}>
+    <Row label={label ? bench.say("insp.place_of", { name: point }) : point}>
       <span class="two">
         {values.map((value, k) => <Typing key={k} label={bench.say(k ? "insp.across_of" : "insp.along_of", { name: point })} value={value} unit={bench.settings.value.unit} set={take(k)} />)}
       </span>

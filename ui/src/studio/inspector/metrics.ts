@@ -70,7 +70,7 @@ export function named(bench: Bench, { kind, signal: id, quantity }: Figure): str
   return OWN.has(own) ? bench.say(`metric.${own}`) : bench.say(`metric.as_${kind}`, { what: bench.say(`metric.of_${of}`) });
 }
 
-const OWN = new Set(["range_angle", "ratio_angle", "ratio_s", "range_s", "least_m", "largest_effort", "rms_effort", "largest_effort_force", "rms_effort_force", "largest_r", "largest_shake"]);
+const OWN = new Set(["range_angle", "ratio_angle", "ratio_s", "range_s", "largest_effort", "rms_effort", "largest_effort_force", "rms_effort_force", "largest_r", "largest_shake"]);
 
 /** Every metric now and as it was: those of the original design, of those put in by evaluating it once. */
 export function valuesOf(session: Session): (figure: Figure) => { now: number; before: number } {

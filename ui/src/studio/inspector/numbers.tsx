@@ -5,9 +5,9 @@ import type { Session } from "../../session";
 import { digits, unitFor } from "../../words";
 import type { Bench } from "../bench";
 import { Icon } from "../frame/icons";
-import { Act, Segments, Sym } from "./fields";
+import { Act, Segments, Sentence, Sym } from "./fields";
 import { InHand } from "./hand";
-import { choice, figures, GROUPS, groupOf, limitOf, named, ownerOf, valuesOf } from "./metrics";
+import { choice, figures, GROUPS, groupOf, kindOf, limitOf, named, ownerOf, valuesOf } from "./metrics";
 import { Picker } from "./picker";
 
 /** Share of a change, %, that is worth saying. */
@@ -66,7 +66,7 @@ function Metric({ bench, figure, both, now, before }: { bench: Bench; figure: Fi
   const plain = (value: number) => digits(Math.abs(value) < 1e-9 * size ? 0 : value / unit.factor, 4) + (angle ? "°" : ""), limit = limitOf(bench, figure), met = limit && now >= limit.least - 1e-9;
   return (
     <tr data-figure={figure.id}>
-      <th scope="row" title={figure.name[bench.page.language.value]}>{named(bench, figure)}<small><Owner of={ownerOf(figure.signal)} /></small></th>
+      <th scope="row" title={figure.name[bench.page.language.value]}>{kindOf(figure.signal) === "m" && figure.kind === "least" ? <Sentence text={bench.say("metric.least_m", { mu: "{0}" })} names={["μ"]} /> : named(bench, figure)}<small><Owner of={ownerOf(figure.signal)} /></small></th>
       {both && <td class="was">{plain(before)}</td>}
       <td class="is">{plain(now)}{!angle && unit.symbol && <em>{unit.symbol}</em>}</td>
       <td class={limit ? (met ? "ok" : "bad") : "chg"} title={limit ? bench.say(met ? "insp.met" : "insp.missed", { limit: limit.text }) : ""}>

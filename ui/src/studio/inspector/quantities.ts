@@ -10,7 +10,7 @@ export interface Typed {
 }
 
 const NUMBER = String.raw`[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?`;
-const QUANTITY = new RegExp(`^(${NUMBER})\\s*([^\\s\\d*/+()][^+()]*)?$`);
+const QUANTITY = new RegExp(`^(${NUMBER})\\s*([^\\s\\d*/+(),.][^+()]*)?$`);
 // A comma before the decimals; with three of them behind one to three digits it may separate thousands.
 const COMMA = /^([+-]?\d*),(\d+)(?![\d,])/, THOUSANDS = /^[+-]?[1-9]\d{0,2},\d{3}(?!\d)/;
 const FULL = /[\uff0b-\uff0e\uff10-\uff19]/g;

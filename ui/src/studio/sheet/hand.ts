@@ -1,9 +1,10 @@
 // The values in hand: a small panel at the cursor whose numbers can be typed; at the foot of the sheet on a phone.
-import { pretty } from "./names";
 import type { Board } from "./sheet";
 import type { Field } from "../tools/tool";
 import { shown, typed } from "../tools/typed";
 import type { Vec } from "../../shapes";
+import { element } from "../../strokes";
+import { strokes } from "../frame/signs";
 
 // How far the panel stays from the point in hand and from the edges of the sheet, px.
 const AWAY = 28, EDGE = 8;
@@ -17,7 +18,7 @@ interface Input {
 
 export class Hand {
   private readonly panel: HTMLFormElement;
-  private readonly title: HTMLParagraphElement;
+  private readonly title: HTMLSpanElement;
   private readonly row: HTMLDivElement;
   private readonly error: HTMLParagraphElement;
   private readonly keys: HTMLParagraphElement;
@@ -32,7 +33,9 @@ export class Hand {
       return made;
     };
     this.panel = make("form", "hand-panel", stage);
-    this.title = make("p", "snapped", this.panel);
+    const head = make("p", "snapped", this.panel), magnet = element("svg", { class: "icon", viewBox: "0 0 20 20", width: 16, height: 16, "aria-hidden": "true" }, head);
+    for (const [style, d] of strokes("magnet")) element("path", { class: `i-${style}`, d }, magnet);
+    this.title = make("span", "", head);
     this.row = make("div", "pair", this.panel);
     this.set = make("button", "set", this.row);
     this.set.type = "submit";
@@ -115,7 +118,7 @@ export class Hand {
     fields.forEach((field, k) => this.fill(field, this.inputs[k]));
     const snapped = board.tool.note?.() || (spot?.snap?.sentence ?? "");
     if (this.title.textContent !== snapped) this.title.textContent = snapped;
-    this.title.hidden = !snapped;
+    this.title.parentElement!.hidden = !snapped;
     if (spot) this.put(spot.screen);
   }
 
@@ -131,10 +134,11 @@ export class Hand {
     }
     this.inputs = fields.map((field) => {
       const box = document.createElement("label"), label = document.createElement("span"), input = document.createElement("input"), unit = document.createElement("span");
-      label.textContent = pretty(field.label) && field.label;
+      label.textContent = field.label;
       unit.className = "unit";
       Object.assign(input, { type: "text", autocomplete: "off", spellcheck: false, inputMode: field.quantity === "teeth" ? "text" : "decimal", name: field.key });
       box.append(label, input, unit);
+      box.classList.toggle("first", field === fields[0]);
       input.addEventListener("input", () => this.take(field, input.value));
       this.row.insertBefore(box, this.set);
       return { box, label, field: input, unit };

@@ -155,10 +155,15 @@ export class Board implements Sheet {
     return point?.links.length === 1 && !point.fixed && !this.scene.guided.includes(name) && this.scene.links[point.links[0]].length === 2;
   }
 
+  /** The machine or the drawing as it stands, with directions and loads. */
+  get stand(): Stand {
+    const session = this.solved;
+    return new Stand(this.scene, this.picture, session, session ? this.place : 0);
+  }
+
   /** Loads as they are drawn now. */
   get loads(): DrawnLoad[] {
-    const session = this.solved;
-    return this.bench.shows("loads") ? drawnLoads(new Stand(this.scene, this.picture, session, session ? this.place : 0), this.camera) : [];
+    return this.bench.shows("loads") ? drawnLoads(this.stand, this.camera) : [];
   }
 
   /** A place on the grid, unless it is held off. */
@@ -200,7 +205,10 @@ export class Board implements Sheet {
       this.whole = true;
       this.fit();
     }
-    if (this.stale.all) this.drawAll();
+    if (this.stale.all) {
+      this.drawAll();
+      this.lookAgain();
+    }
     const { below, above, over } = this.marks, tool = this.tool;
     for (const each of [below, above, over]) each.begin();
     this.placed = drawMarks(this, below, above);
@@ -319,6 +327,12 @@ export class Board implements Sheet {
   }
 
   private kept: number | null = null;
+
+  /** The pointer rests, but what is under it may be something else now. */
+  private lookAgain(): void {
+    const { spot, bench } = this;
+    if (spot && !bench.page.playing.value) this.spot = this.spotAt(spot.screen, { shiftKey: spot.shift, altKey: spot.alt }, spot.touch);
+  }
 
   /** The pointer is there: what it is on lights up. */
   point(spot: Spot | null): void {

@@ -1,22 +1,18 @@
 // Every tool of the rail by its name.
 import type { ToolName } from "../bench";
+import { makeDrive } from "./drive";
 import { makeErase } from "./erase";
+import { makeForce } from "./force";
+import { makeMass } from "./mass";
 import { makeMove } from "./move";
+import { makePhoto } from "./photo";
 import { SHAPES } from "./shapes";
+import { makeSpring } from "./spring";
+import { makeTarget } from "./target";
 import type { MakeTool } from "./tool";
-
-/** Stands in for a tool that is not there: it is chosen, and does nothing. */
-const missing = (name: ToolName): MakeTool => () => ({ name, hint: () => [`tool.${name}`], escape: () => false, leave: () => undefined });
+import { makeTorque } from "./torque";
 
 export const MAKE: Record<ToolName, MakeTool> = {
-  move: makeMove,
-  ...SHAPES,
-  drive: missing("drive"),
-  force: missing("force"),
-  torque: missing("torque"),
-  spring: missing("spring"),
-  mass: missing("mass"),
-  target: missing("target"),
-  photo: missing("photo"),
+  move: makeMove, ...SHAPES, drive: makeDrive, force: makeForce, torque: makeTorque, spring: makeSpring, mass: makeMass, target: makeTarget, photo: makePhoto,
   erase: makeErase,
 };

@@ -13,6 +13,8 @@ class LinkTool implements Tool {
   private readonly values: TypedValues;
   /** Where the link in hand begins. */
   private from: End | null = null;
+  /** The direction of the link before, while the pointer says none. */
+  private along = 0;
   /** Names that are not in the drawing yet. */
   private coming: string[] = [];
 
@@ -53,7 +55,7 @@ class LinkTool implements Tool {
     const { spot } = this.sheet;
     if (!this.from || !spot) return [];
     const { at } = this.end(spot), start = this.start!;
-    return [this.values.field("length", this.values.value("length") ?? distance(start, at)), this.values.field("angle", this.values.value("angle") ?? heading(start, at))];
+    return [this.values.field("length", this.values.value("length") ?? distance(start, at)), this.values.field("angle", this.values.value("angle") ?? this.direction(spot, at))];
   }
 
   type = (key: string, text: string) => this.values.type(key, text, (value) => key !== "length" || value > SAME);
@@ -89,10 +91,15 @@ class LinkTool implements Tool {
     const length = this.values.value("length"), angle = this.values.value("angle");
     // A joint or a link under the pointer is what the end goes to; the drawing is then moved to a typed length.
     if (angle === null && there.name !== this.from!.name && (length === null || !there.made || there.on)) return there;
-    const along = angle ?? heading(start, spot.place);
+    const along = angle ?? this.direction(spot, spot.place);
     const far = length ?? Math.max(0, (spot.place[0] - start[0]) * Math.cos(along) + (spot.place[1] - start[1]) * Math.sin(along));
     const at = polar(start, far, along), known = [...scene.points.values()].find((each) => each.name !== this.from!.name && distance(each.at, at) < SAME);
     return known ? { name: known.name, at: known.at, made: false, on: null } : { ...endAt({ ...spot, snap: null }, scene, taken), at };
+  }
+
+  /** From where the link begins to a place, as the one before while the pointer is still there. */
+  private direction(spot: Spot, to: Vec): number {
+    return near(spot, this.sheet.camera.screen(this.start!)) ? this.along : heading(this.start!, to);
   }
 
   private finish(to: End): void {
@@ -103,6 +110,7 @@ class LinkTool implements Tool {
     const ends = [from, to], places = Object.fromEntries(ends.filter(({ made }) => made).map(({ name, at }) => [name, at]));
     const link = { do: "link", points: ends.map(({ name }) => name), places, ...(length && { length }) };
     this.values.clear();
+    this.along = heading(this.start!, to.at);
     this.from = { ...to, made: false, on: null };
     this.sheet.redraw();
     void this.make(from, to, [...ends.flatMap(dropped), link]);

@@ -22,7 +22,7 @@ export function inHand(over: Overlay, sheet: Sheet, from: Vec, to: Vec, angle = 
 
 /** The dimension stands on the side where the arc of the angle is not. */
 function side(a: Vec, b: Vec): number {
-  return b[1] > a[1] ? OFF : -OFF;
+  return b[1] < a[1] ? OFF : -OFF;
 }
 
 /** The angle of a direction from the horizontal, at a place of the screen. */
