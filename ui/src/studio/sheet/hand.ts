@@ -25,6 +25,8 @@ export class Hand {
   private readonly set: HTMLButtonElement;
   private inputs: Input[] = [];
   private known = "";
+  /** Whether quiet fields are shown, too: something is typed. */
+  private called = false;
 
   constructor(private readonly board: Board, stage: HTMLElement) {
     const make = <K extends keyof HTMLElementTagNameMap>(tag: K, style: string, parent?: HTMLElement) => {
@@ -55,20 +57,18 @@ export class Hand {
   }
 
   get fields(): Field[] {
-    return (this.board.tool.fields?.() ?? []).filter(({ quiet, text }) => !quiet || text !== null);
+    return (this.board.tool.fields?.() ?? []).filter(({ quiet, text }) => !quiet || text !== null || this.called);
   }
 
-  /** Takes the first of what is typed; true where there is a field for it. */
+  /** Takes the first of what is typed, in a field that may have been quiet; true where there is one. */
   begin(): boolean {
+    this.called = true;
+    this.show();
     const first = this.inputs[0];
     if (this.panel.hidden || !first) return false;
     first.field.focus();
     first.field.select();
     return true;
-  }
-
-  get open(): boolean {
-    return !this.panel.hidden;
   }
 
   private enter(): void {
@@ -106,6 +106,11 @@ export class Hand {
 
   /** Shows the values as they are now, beside the point in hand. */
   draw(): void {
+    this.called &&= this.panel.contains(document.activeElement);
+    this.show();
+  }
+
+  private show(): void {
     const { board, panel } = this, { bench, spot } = board, { fields } = this;
     panel.hidden = !fields.length;
     if (!fields.length) {
@@ -119,6 +124,8 @@ export class Hand {
     const snapped = board.tool.note?.() || (spot?.snap?.sentence ?? "");
     if (this.title.textContent !== snapped) this.title.textContent = snapped;
     this.title.parentElement!.hidden = !snapped;
+    // It goes with a mouse, which would never reach it, and is not in its way.
+    panel.classList.toggle("passed", !spot?.touch);
     if (spot) this.put(spot.screen);
   }
 

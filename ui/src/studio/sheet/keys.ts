@@ -38,10 +38,7 @@ export class Keys {
     if (key in WAYS) return onSheet && this.arrow(WAYS[key], event);
     if (key === "Enter") return onSheet && this.enter(event);
     if (key === "Delete" || key === "Backspace") return onSheet && erase(board);
-    if (TYPED.test(key) && this.hand.open) {
-      this.hand.begin();
-      return false;
-    }
+    if (TYPED.test(key) && this.hand.begin()) return false;
     if (event.shiftKey && event.code === "Digit1") return (board.fit(), true);
     if (event.shiftKey && event.code === "Digit2") return (board.fitSelection(), true);
     if (event.shiftKey && key.toLowerCase() === "m") return mirror(board);
