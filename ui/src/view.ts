@@ -62,6 +62,8 @@ export class View {
   private k = 0;
   private readonly handles = new Map<string, SVGElement>();
   private readonly names: Names;
+  /** Ends of strokes beside the machine which names keep clear of, too. */
+  taken: number[] = [];
   /** Ends of the strokes that are drawn, which names keep clear of. */
   private ink: number[] = [];
   private readonly vectors = new Map<string, { line: SVGElement; head: SVGElement }>();
@@ -196,7 +198,7 @@ export class View {
     }
     if (!settled || paths !== this.seen.paths || shift !== this.seen.shift) this.drawPaths();
     this.seen = { values, scale: this.scale, paths, shift };
-    this.ink = [];
+    this.ink = [...this.taken];
     for (const each of this.drawn) each();
     for (const [key, handle] of this.handles) place(handle, "cx", "cy", this.at(key));
     this.drawVectors();

@@ -35,15 +35,15 @@ export class Hand {
       return made;
     };
     this.panel = make("form", "hand-panel", stage);
-    const head = make("p", "snapped", this.panel), magnet = element("svg", { class: "icon", viewBox: "0 0 20 20", width: 16, height: 16, "aria-hidden": "true" }, head);
+    const head = make("p", "hand-snap", this.panel), magnet = element("svg", { class: "icon", viewBox: "0 0 20 20", width: 16, height: 16, "aria-hidden": "true" }, head);
     for (const [style, d] of strokes("magnet")) element("path", { class: `i-${style}`, d }, magnet);
     this.title = make("span", "", head);
-    this.row = make("div", "pair", this.panel);
-    this.set = make("button", "set", this.row);
+    this.row = make("div", "hand-row", this.panel);
+    this.set = make("button", "hand-set", this.row);
     this.set.type = "submit";
-    this.error = make("p", "error", this.panel);
+    this.error = make("p", "hand-error", this.panel);
     this.error.setAttribute("role", "alert");
-    this.keys = make("p", "keys", this.panel);
+    this.keys = make("p", "hand-keys", this.panel);
     this.panel.hidden = true;
     this.panel.addEventListener("submit", (event) => {
       event.preventDefault();
@@ -142,7 +142,7 @@ export class Hand {
     this.inputs = fields.map((field) => {
       const box = document.createElement("label"), label = document.createElement("span"), input = document.createElement("input"), unit = document.createElement("span");
       label.textContent = field.label;
-      unit.className = "unit";
+      unit.className = "hand-unit";
       Object.assign(input, { type: "text", autocomplete: "off", spellcheck: false, inputMode: field.quantity === "teeth" ? "text" : "decimal", name: field.key });
       box.append(label, input, unit);
       box.classList.toggle("first", field === fields[0]);
