@@ -35,8 +35,6 @@ REQUESTS = (
     "curve",
     "optimize",
     "goals",
-    "tasks",
-    "synthesis",
     "candidates",
     "enough",
     "take",

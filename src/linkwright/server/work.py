@@ -22,9 +22,12 @@ from linkwright.server.draft import Draft
 from linkwright.server.edits import edited
 from linkwright.server.files import Files
 from linkwright.server.folder import listing
+from linkwright.server.moved import gap_data, moved
 from linkwright.server.outline import outline
 from linkwright.server.picture import completed
 from linkwright.server.request import mapping, mappings, number, numbers, text
+from linkwright.server.structure import structure_of
+from linkwright.server.unfinished import in_earnest, unfinished
 from linkwright.words import LANGUAGES, _, pgettext
 from linkwright.words.message import in_language
 
@@ -59,8 +62,6 @@ class Work:
             "curve": self._curve,
             "optimize": self._optimize,
             "goals": self._goals,
-            "tasks": self._tasks,
-            "synthesis": self._synthesis,
             "candidates": lambda a: self.background.state(),
             "enough": lambda a: self.background.end(),
             "take": self._take,
@@ -138,19 +139,6 @@ class Work:
 
         return self.background.begin("optimum", optimised(text(asked, "text")), language_of(asked))
 
-    def _tasks(self, asked: Plain) -> Plain:
-        """The tasks of synthesis as forms."""
-        from linkwright.server.synthesis import task_forms
-
-        return {"tasks": task_forms(language_of(asked))}
-
-    def _synthesis(self, asked: Plain) -> Plain:
-        """Begins the search for linkages that meet the demands of a task."""
-        from linkwright.server.synthesis import designed
-
-        work = designed(text(asked, "task"), mapping(asked, "demands"))
-        return self.background.begin("synthesis", work, language_of(asked))
-
     def _goals(self, asked: Plain) -> Plain:
         """What an optimisation of a text's model can minimize or limit."""
         from linkwright.server.search import goals
@@ -199,28 +187,34 @@ def solved(text: str, language: str, folder: str = "") -> Plain:
     ``folder``: where files lie that the text names.
     """
     mechanism, _ = read_text(text, "model")
+    findings, told = checked_text(text, "model", folder).findings, False
     found: Plain = {
-        "findings": [_finding(each, language) for each in checked_text(text, "model", folder).findings],
         "model": None,
+        "gap": None,
         "sentence": "",
         "optimize": {},
         "outline": outline(text),
+        "structure": structure_of(text, mechanism, language),
     }
     try:
         draft = Draft(text)
         found["picture"] = {**draft.picture(), "unmet": unmet(draft)}
         if mechanism is not None:
-            from linkwright.kinematics.solve import solve_motion
             from linkwright.page.content import page_data
             from linkwright.topology import structure
 
             found["mobility"] = structure(mechanism).mobility
             found["optimize"] = dict(mechanism.optimize)
-            motion = solve_motion(mechanism)
+            motion, gap, error = moved(mechanism)
+            told = motion is not None or gap is not None
+            found["gap"] = gap and gap_data(gap, mechanism, language)
+            if motion is None:
+                raise error or LinkwrightError("")
             found["picture"] = completed(found["picture"], motion)
             found["model"] = page_data([(motion, text)], language)["models"][0]
     except LinkwrightError as error:
-        found["sentence"] = error.translate(language)
+        found["sentence"] = "" if found["gap"] or unfinished(error.code) else error.translate(language)
+    found["findings"] = [_finding(each, language) for each in in_earnest(findings, told=told)]
     return found
 
 

@@ -14,6 +14,7 @@ import linkwright as lw
 from linkwright import gallery
 from linkwright.cli import main
 from linkwright.server.files import Files
+from linkwright.server.unfinished import unfinished
 from linkwright.server.work import Work, solved
 from linkwright.words import LANGUAGES
 
@@ -68,6 +69,7 @@ def test_every_way_finds_the_same(text: str, key: str, tmp_path: Path, capsys: p
     assert [(each["key"], each["code"], each["where"]) for each in told["findings"]] == [
         (each.key, each.code, each.where) for each in found
     ]
+    found = [each for each in found if not unfinished(each.code, each.key)]
     for language in LANGUAGES:
         shown = solved(text, language, str(tmp_path))["findings"]
         assert [(each["key"], each["code"]) for each in shown] == [(each.key, each.code) for each in found]

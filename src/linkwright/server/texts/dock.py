@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from linkwright.server.texts.synthesis import SYNTHESIS
 from linkwright.words import Message, _, pgettext
 
-DOCK: dict[str, Message] = SYNTHESIS | {
+DOCK: dict[str, Message] = {
     "dock": pgettext("dock", "Time line and curves"),
     "dock.curves": _("Curves"),
     "dock.sweep": pgettext("dock", "Sweep"),

@@ -6,10 +6,6 @@ from linkwright.words import Message, _, pgettext
 
 RAIL: dict[str, Message] = {
     "tools": _("Tools"),
-    "tools.all": _("All {count}"),
-    "menu": pgettext("menu", "Menu"),
-    "drawer": _("Inspector and curves"),
-    "drawer.height": _("Height of inspector and curves"),
     "rail.icons": _("Icons only"),
     "rail.names": _("Show names"),
     "variant.spring": pgettext("tool", "Spring"),
@@ -39,7 +35,7 @@ FOOT: dict[str, Message] = {
     "snap": _("Snap"),
     "snap.help": _("Snap to joints, links, directions and the grid; hold Alt to pass over"),
     "grid.spacing": _("Spacing of the grid"),
-    "grid.now": pgettext("foot", "Grid {value}"),
+    "grid.now": _("Grid {value}"),
     "grid.auto": _("by zoom"),
     "grid.by_zoom": _("By the zoom"),
     "grid.hide": _("Hide the grid"),
