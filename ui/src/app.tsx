@@ -9,6 +9,7 @@ import { type Page, save } from "./living";
 import { Machine } from "./machine";
 import { isForce, sampled } from "./numbers";
 import type { Session } from "./session";
+import { shareLink } from "./share";
 import { digits, quantity } from "./words";
 import "./page.css";
 
@@ -251,6 +252,16 @@ function Tools({ page, session }: { page: Page; session: Session }) {
   const shared = page.history && !session.number, { history } = session;
   useShown(session, () => [history.undoable, history.redoable, session.model.differs].join());
   const button = (word: string, act: () => void, able = true) => <button disabled={!able} onClick={act}>{page.say(word)}</button>;
+  const studio = async () => {
+    const link = await shareLink(session.text().text);
+    try {
+      await navigator.clipboard.writeText(link);
+      page.note.value = page.say("studio_copied");
+    } catch {
+      window.history.replaceState(null, "", link.slice(link.indexOf("#")));
+      page.note.value = page.say("studio_shown");
+    }
+  };
   const download = () => {
     const { text, missing } = session.text();
     save(new Blob([text], { type: "text/yaml" }), `${session.data.name[page.language.value].replace(/[\\/:*?"<>|\s]+/g, "_")}.yaml`);
@@ -272,6 +283,7 @@ function Tools({ page, session }: { page: Page; session: Session }) {
         );
       })}
       {button("download", download)}
+      {!page.history && button("studio", () => void studio())}
     </div>
   );
 }

@@ -48,6 +48,15 @@ TEXTS = {
     "page.copied": _("The link with the changed dimensions is in the clipboard."),
     "page.link_shown": _("The link with the changed dimensions is in the address line."),
     "page.download": _("Download the model"),
+    "page.studio": _("Open in the studio"),
+    "page.studio_copied": _(
+        "A link with this model is in the clipboard. It opens in a studio: File, Open a "
+        "shared link; or by `linkwright studio LINK`."
+    ),
+    "page.studio_shown": _(
+        "A link with this model is in the address line; copy it. It opens in a studio: File, "
+        "Open a shared link; or by `linkwright studio LINK`."
+    ),
     "page.not_written": _("The file gives these in another way, so they are not written into it: {names}."),
     "page.print": _("Print"),
     "page.drawing": _(

@@ -32,7 +32,7 @@ from linkwright.server.background import unexpected
 from linkwright.server.files import LARGEST, Files
 from linkwright.server.request import BadRequest, parsed
 from linkwright.server.texts import TEXTS
-from linkwright.server.work import Work, error_text, language_of
+from linkwright.server.work import Work, drawing_stem, error_text, language_of
 from linkwright.words import LANGUAGES, Message, _
 
 _POLICY = (
@@ -231,6 +231,14 @@ def started(folder: Path, name: str | None, *, port: int = 0, language: str = "e
     studio = studio or Studio(folder, name, port=port, language=language)
     remember(folder, Address(studio.server_port, studio.token))
     return studio
+
+
+def drafted(folder: Path, text: str, language: str) -> str:
+    """Stores a text as the draft of a new drawing; gives the drawing's name."""
+    files = Files(folder)
+    name = files.fresh(f"{drawing_stem(language)} ", "", numbered=True)
+    files.keep(name, text, "", 0)
+    return name
 
 
 @dataclass(frozen=True)

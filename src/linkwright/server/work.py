@@ -82,7 +82,7 @@ class Work:
         if unsaved:
             return self.files.open(unsaved[0])
         numbered = bool(asked.get("numbered"))
-        stem = pgettext("studio", "Drawing").translate(language) if numbered else "machine"
+        stem = drawing_stem(language) if numbered else "machine"
         return {
             **self.files.open(self.files.fresh(f"{stem} " if numbered else stem, window, numbered=numbered)),
             "text": new,
@@ -167,6 +167,11 @@ class Work:
                 export(document.mechanism, path, language=language, **more)
             content = path.read_bytes()
         return {"content": base64.b64encode(content).decode()}
+
+
+def drawing_stem(language: str) -> str:
+    """What new drawings are called, with a number."""
+    return pgettext("studio", "Drawing").translate(language)
 
 
 def new_text(language: str = "en") -> str:

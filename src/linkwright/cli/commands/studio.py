@@ -24,12 +24,19 @@ in sync, findings at their lines, and tools that draw a mechanism from nothing. 
 this machine only and reads and writes model files below the folder it is started in. Every change is
 saved at once; what was not saved is there again after a crash."""
     ),
-    """\
+    _(
+        """\
 linkwright studio
-linkwright studio crusher.yaml""",
+linkwright studio crusher.yaml
+linkwright studio 'http://127.0.0.1/#model=…'    a shared link, as a new drawing"""
+    ),
 )
 @argument(
-    "file", "FILE", help=_("the model file, below this folder; a new one may be named"), required=False, model=True
+    "file",
+    "FILE",
+    help=_("the model file, below this folder, or a shared link; a new one may be named"),
+    required=False,
+    model=True,
 )
 @count("--port", 0, help=_("the port (default: a free one)"))
 @flag("--no-browser", help=_("only print the address"))
@@ -39,10 +46,13 @@ def run(options: Options, session: Session) -> int:
     from pathlib import Path
 
     from linkwright.cli.errors import UsageError
-    from linkwright.server.web import started
+    from linkwright.server.shared import holds_model, model_of
+    from linkwright.server.web import drafted, started
 
     folder, name = Path.cwd().resolve(), None
-    if options.file is not None:
+    if options.file is not None and holds_model(options.file):
+        name = drafted(folder, model_of(options.file), session.language)
+    elif options.file is not None:
         path = (folder / options.file).resolve()
         if not path.is_relative_to(folder):
             raise UsageError(OUTSIDE.format(name=options.file))
