@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from linkwright.core.data import Plain
 from linkwright.errors import LinkwrightError
-from linkwright.server import cams, drawn, links, masses, pairs, request, values
+from linkwright.server import cams, drawn, joining, links, masses, naming, pairs, request, values
 from linkwright.server.agreement import agree, unmet
 from linkwright.server.draft import Draft
 from linkwright.server.removing import remove
@@ -20,6 +20,7 @@ class Edited(NamedTuple):
     text: str
     notes: list[str]
     made: list[str]
+    renamed: dict[str, str]
     picture: Plain
 
 
@@ -45,7 +46,8 @@ def edited(text: str, actions: Sequence[Mapping[str, Any]]) -> Edited:
     ``remove`` {items: [{kind, name}]} · ``paste`` {items, shift: [dx, dy], mirror?: x | y} · ``optimize`` {section}
 
     ``kind`` and ``what`` are point, link, pair, load or driver. ``made`` has the names of new elements of all actions
-    in their order: of a point, link, pair or load that was not there before. Raises LinkwrightError for an action
+    in their order: of a point, link, pair or load that was not there before; ``renamed``: {old: new} names of links
+    that ``driver`` names by function (link1 → crank). Raises LinkwrightError for an action
     that the text does not admit.
     """
     draft, notes = Draft(text), list[str]()
@@ -60,7 +62,11 @@ def edited(text: str, actions: Sequence[Mapping[str, Any]]) -> Edited:
         notes.append(act(draft, action) or "")
         agree(draft, draft.made[known:], excused)
     return Edited(
-        draft.text, [each for each in notes if each], draft.made, {**draft.picture(), "unmet": unmet(draft)}
+        draft.text,
+        [each for each in notes if each],
+        draft.made,
+        draft.renamed,
+        {**draft.picture(), "unmet": unmet(draft)},
     )
 
 
@@ -70,11 +76,15 @@ def _optimize(draft: Draft, action: Mapping[str, Any]) -> None:
 
 
 _ACTIONS: dict[str, Callable[[Draft, Mapping[str, Any]], str | None]] = {
+    "rename": naming.rename,
     "point": drawn.point,
     "fix": drawn.fix,
     "move": drawn.move,
     "link": links.link,
     "add_point": links.add_point,
+    "split": joining.split,
+    "merge": joining.merge,
+    "weld": joining.weld,
     "driver": pairs.driver,
     "guide": pairs.guide,
     "slot": pairs.slot,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 from linkwright.core.data import Plain
 from linkwright.fields.nodes import Mapping, Node, Scalar, Sequence
@@ -15,14 +16,15 @@ def outline(text: str) -> Plain:
     root, _unused = compose(text.removeprefix("\ufeff"))
     if not isinstance(root, Mapping):
         return {"entries": {}, "lines": {}}
-    return {"entries": _value(root), "lines": dict(_lines(root, ""))}
+    return {"entries": outlined(root), "lines": dict(_lines(root, ""))}
 
 
-def _value(node: Node) -> Plain | list[object] | str:
+def outlined(node: Node) -> Any:
+    """A value as plain data, texts as they are written."""
     if isinstance(node, Mapping):
-        return {key: _value(value) for key, value in node}
+        return {key: outlined(value) for key, value in node}
     if isinstance(node, Sequence):
-        return [_value(each) for each in node.items]
+        return [outlined(each) for each in node.items]
     return node.text if isinstance(node, Scalar) else ""
 
 

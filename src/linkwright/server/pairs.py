@@ -17,12 +17,16 @@ from linkwright.server import request
 from linkwright.server.draft import Draft, length
 from linkwright.server.drawn import new_point, put_point
 from linkwright.server.entries import word
-from linkwright.server.links import fresh_link, put_link
+from linkwright.server.links import fresh_block, put_link
+from linkwright.server.naming import by_function
+from linkwright.server.outline import outlined
 from linkwright.units import number
 from linkwright.words import _
 
 #: Speeds of new drives.
 TURNING, SLIDING = "60 rpm", "0.1 m/s"
+#: Keys of a drive that say what it drives.
+WAYS = ("turn", "about", "relative_to", "slide")
 #: Two numbers of teeth.
 TEETH = re.compile(r"\s*([1-9][0-9]{0,5})\s*[:：]\s*([1-9][0-9]{0,5})\s*")
 
@@ -53,6 +57,7 @@ def driver(draft: Draft, action: Mapping[str, Any]) -> None:
     if "about" in action or pin is not None:
         about = request.name(action, "about") if "about" in action else pin
         _drive(draft, {"turn": link, "about": about, "speed": TURNING})
+        by_function(draft)
     elif slide is not None:
         _drive(draft, {"slide": slide, "speed": SLIDING})
     else:
@@ -60,10 +65,15 @@ def driver(draft: Draft, action: Mapping[str, Any]) -> None:
 
 
 def _drive(draft: Draft, entry: Plain) -> None:
-    """Writes the drive: in place of a single one, as the first of several where they are named."""
+    """Writes the drive: in place of a single one, or of the first of several; its law stays where it fits."""
     drivers = draft.section("drivers")
-    if drivers is not None and drivers.entries:
-        draft.write(drivers.entries[0].value, flow(entry))
+    node = drivers.entries[0].value if drivers is not None and drivers.entries else draft.root.get("driver")
+    way = "turn" if "turn" in entry else "slide"
+    if isinstance(node, MappingNode) and node.get(way) is not None:
+        law = {key: outlined(value) for key, value in node if key not in WAYS}
+        entry = {key: value for key, value in entry.items() if key in WAYS} | law
+    if node is not None:
+        draft.write(node, flow(entry))
     else:
         draft.put_top("driver", entry)
 
@@ -82,7 +92,7 @@ def guide(draft: Draft, action: Mapping[str, Any]) -> None:
     at = request.name(action, "at")
     draft.complete([at])
     place, shown = draft.where(at), draft.shown()
-    link = request.name(action, "link") if "link" in action else fresh_link(draft, "slider")
+    link = request.name(action, "link") if "link" in action else fresh_block(draft)
     if link not in shown["links"]:
         put_link(draft, link, [at])
     through = new_point(draft, stem="G")
@@ -104,7 +114,7 @@ def slot(draft: Draft, action: Mapping[str, Any]) -> None:
     if start == end:
         raise LinkwrightError(_NO_SLOT.format(name=along))
     across = ((end - start).conjugate() * (place - start)).imag / abs(end - start)
-    block = fresh_link(draft, "slider")
+    block = fresh_block(draft)
     put_link(draft, block, [at])
     entry = {"kind": PrismaticJoint.kind, "guide": along, "through": ends[0], "direction": [ends[0], ends[-1]]}
     entry |= {"block": block, "at": at}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from linkwright.errors import LinkwrightError
@@ -12,6 +12,7 @@ from linkwright.files.write import flow
 from linkwright.server import request
 from linkwright.server.draft import Draft
 from linkwright.server.entries import fresh, texts, word
+from linkwright.server.forms import link_entry
 from linkwright.server.references import named, points_of_entry, references
 from linkwright.words import _
 
@@ -19,9 +20,62 @@ NEEDED = _("{name} needs the fixed point {point}; remove {name} first", code="st
 
 
 def remove(draft: Draft, action: Mapping[str, Any]) -> str:
-    """Takes a link, a joint or a load out; gives a sentence about the rest."""
+    """Takes a link, a joint or a load out, and gives a sentence about the rest; or several items without a word."""
+    if "items" in action:
+        _remove_items(draft, request.mappings(action, "items"))
+        return ""
     removed = _REMOVED.get(request.text(action, "what")) or request.refuse("what", "name")
     return removed(draft, request.name(action, "name"))
+
+
+def _remove_items(draft: Draft, items: list[dict[str, Any]]) -> None:
+    """Takes items out, those first that others take along; what is gone by then is no fault."""
+    for kind, (there, take) in _ITEMS.items():
+        for item in items:
+            if request.text(item, "kind") not in _ITEMS:
+                request.refuse("kind", "name")
+            if item["kind"] == kind and (there(draft, name := request.name(item, "name")) or len(items) == 1):
+                take(draft, name)
+
+
+def _pair(draft: Draft, name: str) -> None:
+    """An entry of the joints: with a guide its block, where that is nothing but the block."""
+    joints = draft.section("joints")
+    joint = joints.get(name) if joints is not None else None
+    if not isinstance(joint, MappingNode):
+        raise LinkwrightError(_("there is no joint {name!r} in the text", code="studio.no_joint", name=name))
+    block = word(joint, "block")
+    if len(draft.picture()["links"].get(block, ())) == 1:
+        _link(draft, block)
+        return
+    draft.take_out("joints", name)
+    _remove_what_names(draft, {name})
+    _take_through(draft, joint)
+    _remove_unused(draft)
+
+
+def _take_through(draft: Draft, joint: MappingNode) -> None:
+    """The point of the frame that was there for a guide alone."""
+    shown, through = draft.picture(), word(joint, "through")
+    ends = [point for points in shown["links"].values() for point in points]
+    if word(joint, "guide") == "frame" and through not in ends and not any(references(draft, "frame", through)):
+        take_fixed(draft, through)
+
+
+def _driver(draft: Draft, name: str) -> None:
+    if (drivers := draft.section("drivers")) is not None and drivers.get(name) is not None:
+        draft.take_out("drivers", name)
+    elif draft.section("driver") is not None:
+        draft.cut_top("driver")
+
+
+def _in(section: str) -> Callable[[Draft, str], bool]:
+    return lambda draft, name: (found := draft.section(section)) is not None and found.get(name) is not None
+
+
+def _is_point(draft: Draft, name: str) -> bool:
+    shown = draft.picture()
+    return name in shown["points"] or any(name in points for points in shown["links"].values())
 
 
 def _load(draft: Draft, name: str) -> str:
@@ -113,6 +167,10 @@ def _take_off(draft: Draft, point: str, link: str) -> None:
             draft.cut(places, point)
     elif isinstance(points, Sequence) and len(points.items) > 2 and _drawn(entry):
         draft.write(points, flow([each for each in texts(points) if each != point]))
+    elif len(left := [each for each in draft.picture()["links"][link] if each != point]) > 1 and _all_drawn(
+        draft, left
+    ):
+        _reform(draft, link, left)
     else:
         raise LinkwrightError(
             _(
@@ -126,6 +184,21 @@ def _take_off(draft: Draft, point: str, link: str) -> None:
     for section, name in gone:
         draft.take_out(section, name)
     _remove_what_names(draft, {name for section, name in gone if section == "joints"})
+
+
+def _all_drawn(draft: Draft, points: list[str]) -> bool:
+    draft.complete(points)
+    return set(points) <= set(draft.shown()["points"])
+
+
+def _reform(draft: Draft, link: str, points: list[str]) -> None:
+    """Writes a link anew that goes through the points that are left of it; masses stay."""
+    entry = draft.link(link)
+    kept = {key: draft.text[node.start : node.end].strip() for key, node in entry if key in ("mass", "inertia")}
+    at = {point: draft.where(point) for point in points}
+    draft.put("links", link, link_entry(draft, at))
+    for key, text in kept.items():
+        draft.write_key(draft.link(link), key, text)
 
 
 def _renamed(draft: Draft, link: str, point: str) -> str:
@@ -193,4 +266,11 @@ def take_fixed(draft: Draft, point: str) -> None:
             draft.cut(points, point)
 
 
+_ITEMS: dict[str, tuple[Callable[[Draft, str], bool], Callable[[Draft, str], object]]] = {
+    "load": (_in("loads"), _load),
+    "driver": (lambda draft, name: draft.root.get("driver") is not None or _in("drivers")(draft, name), _driver),
+    "pair": (_in("joints"), _pair),
+    "link": (_in("links"), _link),
+    "point": (_is_point, _joint),
+}
 _REMOVED = {"link": _link, "joint": _joint, "load": _load}

@@ -49,6 +49,7 @@ LEFT: Mapping[str, tuple[int, str]] = {
     "server/cams.py": (2, "tools of the studio that write a cam, a rack into a file"),
     "server/pairs.py": (2, "the same, of guides, slots and gears"),
     "server/masses.py": (1, "the same, of forces"),
+    "server/joining.py": (1, "the same, of welds"),
     "designs/tolerance/pins.py": (1, "a law of its own, by a table, for pins that follow their reactions"),
     "file_check.py": (1, "judges closeness to singular positions by the metric's rule"),
     "machine/running.py": (1, "says how near its motion comes to a singular position"),
