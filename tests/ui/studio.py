@@ -35,6 +35,8 @@ REQUESTS = (
     "curve",
     "optimize",
     "goals",
+    "tasks",
+    "synthesis",
     "candidates",
     "enough",
     "take",

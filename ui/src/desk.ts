@@ -66,9 +66,33 @@ export interface Asked {
   numbered?: boolean;
 }
 
+/** Where the points of a linkage are (m), which links join them, the guides of its blocks (rad). */
+export interface Drawing {
+  points: Record<string, [number, number]>;
+  fixed: string[];
+  links: Record<string, string[]>;
+  guides: { on: string; at: string; angle: number }[];
+  driver: string;
+}
+
+/** A linkage that meets the demands of a task, its numbers in words. */
+export interface Design {
+  text: string;
+  type: string;
+  error: string;
+  defects: string;
+  /** Null: not known. */
+  transmission_angle: number | null;
+  lengths: [string, string][];
+  values: [string, string][];
+  drawing: Drawing;
+  curve: [number, number][];
+}
+
 /** A linkage for a curve: its file, how far off it is (m), its curve. */
 export interface Candidate {
   text: string;
+  drawing: Drawing;
   links: number;
   error: number;
   transmission_angle: number;
@@ -90,7 +114,7 @@ interface Progress {
   done: number[];
 }
 
-export type Sought = Progress & ({ kind: "curve"; candidates: Candidate[] } | { kind: "optimum"; head?: string[]; candidates: Better[] });
+export type Sought = Progress & ({ kind: "curve"; candidates: Candidate[] } | { kind: "synthesis"; candidates: Design[]; notes?: string[] } | { kind: "optimum"; head?: string[]; candidates: Better[] });
 
 export class Desk {
   readonly text = signal("");
@@ -397,7 +421,7 @@ export class Desk {
   }
 
   /** Begins a search and looks what is found so far until it has ended. */
-  async search(name: "curve" | "optimize", body: Record<string, unknown>): Promise<void> {
+  async search(name: "curve" | "synthesis" | "optimize", body: Record<string, unknown>): Promise<void> {
     const begun = await this.ask<{ number: number }>(name, body);
     if (!begun) return;
     this.page.note.value = "";

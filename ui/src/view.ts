@@ -13,6 +13,8 @@ import {
 const LAYERS = ["ground", "paths", "bodies", "blocks", "pins", "tops", "marks", "vectors", "names", "handles"];
 const BLOCK = 15, STUB = 8, HALF_HEIGHT = 9;
 const PUSH = 52, GAP = 8;
+/** How long the longest vector of a kind is drawn, px. */
+export const VECTOR = 90;
 // Paper narrower than this has smaller symbols, at least this share of their size; more points than these count as
 // narrower paper.
 const WIDE = 560, SMALLEST = 0.42, POINTS = 10;
@@ -60,9 +62,13 @@ export class View {
   private k = 0;
   private readonly handles = new Map<string, SVGElement>();
   private readonly names: Names;
+  /** Ends of strokes beside the machine which names keep clear of, too. */
+  taken: number[] = [];
   /** Ends of the strokes that are drawn, which names keep clear of. */
   private ink: number[] = [];
   private readonly vectors = new Map<string, { line: SVGElement; head: SVGElement }>();
+  /** The longest vector of each kind that is shown, over the cycle, SI. */
+  longest: Record<string, number> = {};
   private paths: SVGElement[] = [];
   private scale = 1;
   private shift: Vec = [0, 0];
@@ -192,7 +198,7 @@ export class View {
     }
     if (!settled || paths !== this.seen.paths || shift !== this.seen.shift) this.drawPaths();
     this.seen = { values, scale: this.scale, paths, shift };
-    this.ink = [];
+    this.ink = [...this.taken];
     for (const each of this.drawn) each();
     for (const [key, handle] of this.handles) place(handle, "cx", "cy", this.at(key));
     this.drawVectors();
@@ -227,11 +233,11 @@ export class View {
         return () => put(plate, "d", this.stroke(hull(glyph.points!.map((key) => this.at(key))), true));
       }
       case "spring": {
-        const spring = path("lw-spring");
+        const spring = path("lw-spring elastic");
         return () => put(spring, "d", line(zigzag(this.at(glyph.points![0]), this.at(glyph.points![1]))));
       }
       case "damper": {
-        const damper = path("lw-spring");
+        const damper = path("lw-spring elastic");
         return () => put(damper, "d", dashpot(this.at(glyph.points![0]), this.at(glyph.points![1])));
       }
       case "passing": {
@@ -444,6 +450,7 @@ export class View {
     const { data, main } = this.model, { velocities, accelerations, forces } = this.shown;
     if (!(velocities || accelerations || forces || this.vectors.size)) return;
     const seen = new Set<string>();
+    this.longest = {};
     const family = (style: string, shown: boolean, list: { id: string; rows: string; at: string }[]) => {
       if (!shown || !list.length) return;
       let largest = 0;
@@ -452,8 +459,9 @@ export class View {
         for (let k = 0; k < this.model.n; k++) largest = Math.max(largest, Math.hypot(x[k], y[k]));
       }
       if (!(largest > 0)) return;
+      this.longest[style] = largest;
       for (const { id, rows, at } of list) {
-        const from = this.at(at), long = 90 / largest;
+        const from = this.at(at), long = VECTOR / largest;
         const end: Vec = [from[0] + long * this.row(`${rows}.x`), from[1] - long * this.row(`${rows}.y`)];
         const name = `${style}:${id}`;
         const vector = this.vectors.get(name) ?? {

@@ -18,11 +18,12 @@ test("what the file has is a number with its unit, or an expression", () => {
   assert.equal(read("2 mm*sin(t)").number, "");
 });
 
-test("arrow keys go by the last digit, but not by less than a hundredth part of the number's size", () => {
+test("arrow keys go by about a hundredth of the number's size, teeth by one", () => {
   const rows: [number: string, way: 1 | -1, share: number, next: string][] = [
-    ["140", 1, 1, "141"], ["140", -1, 10, "130"], ["0.110", 1, 1, "0.111"], ["1.5", 1, 1, "1.6"], ["60", 1, 0.1, "60.1"], ["-170", 1, 1, "-169"], ["0", 1, 1, "1"], ["9", 1, 1, "10"], ["4000", 1, 1, "4010"],
+    ["140", 1, 1, "141"], ["140", -1, 10, "130"], ["0.110", 1, 1, "0.111"], ["0.05", 1, 1, "0.051"], ["60", 1, 0.1, "60.1"], ["-170", 1, 1, "-169"], ["0", 1, 1, "1"], ["0.2", -1, 1, "0.199"],
   ];
   for (const [number, way, share, next] of rows) assert.equal(stepped(number, way, share), next, number);
+  assert.equal(stepped("20", 1, 1, true), "21");
 });
 
 test("known units have their SI values", () => {

@@ -23,11 +23,12 @@ from linkwright.files.write import Document, dump
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.server.background import Job
+from linkwright.server.synthesis import curve_data, linkage_drawing
 from linkwright.synthesis.result import Candidate, Synthesis
 from linkwright.words import _
 
-#: Times of the searches that follow on each other, s; points of a curve that is sent, and of one that is sought.
-SECONDS, SENT, CORNERS = (1.0, 6.0), 180, 48
+#: Times of the searches that follow on each other, s; points of a curve that is sought.
+SECONDS, CORNERS = (1.0, 6.0), 48
 #: Largest lengths of four-bars beyond the curve's place, in widths of the curve; smallest transmission angle, rad.
 REACH, TRANSMISSION = 4.0, 0.35
 _FEWEST, _MOST = 3, 4000
@@ -98,14 +99,14 @@ def _drawn_candidate(candidate: Candidate, target: np.ndarray) -> Plain:
     drawn = np.asarray(candidate.curve if candidate.curve is not None else [], dtype=complex).ravel()
     goal = target[:, 0] + 1j * target[:, 1]
     error = float(np.abs(goal[:, None] - drawn[None, :]).min(axis=1).max()) if len(drawn) else float("inf")
-    sent = drawn[:: max(1, len(drawn) // SENT)]
     return {
         "text": dump(candidate.mechanism(candidate.linkage.kind.replace("_", " "))),
         "kind": candidate.linkage.kind,
         "links": len(candidate.linkage.links) + 1,
         "error": error,
         "transmission_angle": float(candidate.transmission_angle),
-        "curve": [[float(each.real), float(each.imag)] for each in sent],
+        "drawing": linkage_drawing(candidate.linkage),
+        "curve": curve_data(candidate),
     }
 
 

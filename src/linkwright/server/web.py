@@ -193,7 +193,8 @@ class _Handler(BaseHTTPRequestHandler):
         content = json.dumps(data, ensure_ascii=False).replace("<", "\\u003c")
         return (
             '<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
-            '<meta name="viewport" content="width=device-width, initial-scale=1">\n<title>Linkwright</title>\n'
+            '<meta name="viewport" content="width=device-width, initial-scale=1, '
+            'interactive-widget=resizes-content">\n<title>Linkwright</title>\n'
             f'<link rel="stylesheet" href="/{name}.css">\n</head>\n<body>\n<div id="page"></div>\n'
             f'<script type="application/json" id="data">{content}</script>\n'
             f'<script src="/{name}.js"></script>\n</body>\n</html>\n'

@@ -62,6 +62,8 @@ class Work:
             "curve": self._curve,
             "optimize": self._optimize,
             "goals": self._goals,
+            "tasks": self._tasks,
+            "synthesis": self._synthesis,
             "candidates": lambda a: self.background.state(),
             "enough": lambda a: self.background.end(),
             "take": self._take,
@@ -138,6 +140,19 @@ class Work:
         from linkwright.server.search import optimised
 
         return self.background.begin("optimum", optimised(text(asked, "text")), language_of(asked))
+
+    def _tasks(self, asked: Plain) -> Plain:
+        """The tasks of synthesis as forms."""
+        from linkwright.server.synthesis import task_forms
+
+        return {"tasks": task_forms(language_of(asked))}
+
+    def _synthesis(self, asked: Plain) -> Plain:
+        """Begins the search for linkages that meet the demands of a task."""
+        from linkwright.server.synthesis import designed
+
+        work = designed(text(asked, "task"), mapping(asked, "demands"))
+        return self.background.begin("synthesis", work, language_of(asked))
 
     def _goals(self, asked: Plain) -> Plain:
         """What an optimisation of a text's model can minimize or limit."""

@@ -17,6 +17,7 @@ import { DOCK, followWindow, INSPECTOR, SHUT, sized } from "./frame/layout";
 import { MenuHost } from "./frame/menu";
 import { OpenDialog } from "./frame/open";
 import { Palette } from "./frame/palette";
+import { PhoneRoom, ToolSheet } from "./frame/phone";
 import { Rail } from "./frame/rail";
 import { LinkDialog, SaveDialog } from "./frame/save";
 import { Shared } from "./frame/shared";
@@ -42,8 +43,9 @@ function Room({ bench }: { bench: Bench }) {
   const { settings, layout } = bench, [wide, tall] = useWindow(), large = layout.value === "large", { slim } = settings.value;
   const inspector = sized(settings.value.inspector, wide, large, INSPECTOR), dock = sized(settings.value.dock, tall, large, DOCK);
   const style = { "--inspector": `${inspector}px`, "--dock": `${bench.dock.value ? dock : SHUT}px` };
+  if (layout.value === "phone") return <><PhoneRoom bench={bench} /><Over bench={bench} /></>;
   return (
-    <div class={`room ${layout.value}${slim ? " slim" : ""}`} style={style}>
+    <><div class={`room ${layout.value}${slim ? " slim" : ""}`} style={style}>
       <TopBar bench={bench} />
       <Strips bench={bench} />
       <Rail bench={bench} />
@@ -53,11 +55,19 @@ function Room({ bench }: { bench: Bench }) {
       <Status bench={bench} />
       <Divider of="inspector" label={bench.say("divider.inspector")} value={inspector} least={INSPECTOR.least} most={Math.floor(INSPECTOR.share * wide)} set={(size) => bench.set({ inspector: size })} />
       {bench.dock.value && <Divider of="dock" label={bench.say("divider.dock")} value={dock} least={DOCK.least} most={Math.floor(DOCK.share * tall)} set={(size) => bench.set({ dock: size })} />}
+    </div><Over bench={bench} /></>
+  );
+}
+
+/** What stands over the room. */
+function Over({ bench }: { bench: Bench }) {
+  return (
+    <>
       <Asked bench={bench} />
       <Shared bench={bench} />
       <MenuHost />
       <Tip />
-    </div>
+    </>
   );
 }
 
@@ -69,6 +79,7 @@ function Asked({ bench }: { bench: Bench }) {
     case "save": return <SaveDialog bench={bench} />;
     case "link": return <LinkDialog bench={bench} />;
     case "keys": return <KeySheet bench={bench} />;
+    case "tools": return <ToolSheet bench={bench} />;
     case "palette": return <Palette bench={bench} />;
     default: return null;
   }

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from linkwright.server.texts.synthesis import SYNTHESIS
 from linkwright.words import Message, _, pgettext
 
-DOCK: dict[str, Message] = {
+DOCK: dict[str, Message] = SYNTHESIS | {
     "dock": pgettext("dock", "Time line and curves"),
     "dock.curves": _("Curves"),
     "dock.sweep": pgettext("dock", "Sweep"),

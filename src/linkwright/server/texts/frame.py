@@ -6,6 +6,10 @@ from linkwright.words import Message, _, pgettext
 
 RAIL: dict[str, Message] = {
     "tools": _("Tools"),
+    "tools.all": _("All {count}"),
+    "menu": pgettext("menu", "Menu"),
+    "drawer": _("Inspector and curves"),
+    "drawer.height": _("Height of inspector and curves"),
     "rail.icons": _("Icons only"),
     "rail.names": _("Show names"),
     "variant.spring": pgettext("tool", "Spring"),
@@ -35,7 +39,7 @@ FOOT: dict[str, Message] = {
     "snap": _("Snap"),
     "snap.help": _("Snap to joints, links, directions and the grid; hold Alt to pass over"),
     "grid.spacing": _("Spacing of the grid"),
-    "grid.now": _("Grid {value}"),
+    "grid.now": pgettext("foot", "Grid {value}"),
     "grid.auto": _("by zoom"),
     "grid.by_zoom": _("By the zoom"),
     "grid.hide": _("Hide the grid"),

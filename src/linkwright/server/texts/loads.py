@@ -67,4 +67,47 @@ _REFUSALS: dict[str, Message] = {
     "refuse.number": _("“{text}” is not a number"),
 }
 
-LOADS: dict[str, Message] = _HINTS | _VALUES | _REFUSALS
+_SHOWN: dict[str, Message] = {
+    "mu.low": _("below 40°"),
+    "mu.locks": _("nearly locked"),
+    "show": _("Shown on the sheet"),
+    "show.velocities": pgettext("shown", "Velocities"),
+    "show.accelerations": pgettext("shown", "Accelerations"),
+    "show.forces": _("Joint forces"),
+    "show.loads": _("Loads"),
+    "show.transmission": _("Transmission angles"),
+    "show.paths": pgettext("shown", "Paths"),
+    "show.limits": pgettext("shown", "Limits"),
+    "show.centres": pgettext("shown", "Centres"),
+    "show.names": pgettext("shown", "Names"),
+    "show.dimensions": _("Dimensions"),
+    "show.reach": pgettext("shown", "Reach"),
+    "show.grid": _("Grid"),
+    "scale": _("Scales of the arrows"),
+    "scale.velocity": _("velocity {value}"),
+    "scale.acceleration": _("acceleration {value}"),
+    "scale.force": _("force {value}"),
+    "scale.load": _("load {value}"),
+}
+
+_FIRST: dict[str, Message] = {
+    "first": _("Draw a machine in four steps"),
+    "first.pivot": _("where the frame holds it"),
+    "first.link": _("from joint to joint"),
+    "first.drive": _("the link that turns"),
+    "first.run": _("Run"),
+    "first.space": pgettext("key", "Space"),
+    "first.moves": _("it moves, curves below"),
+    "first.or": _("or begin with"),
+    "first.crank_rocker": _("Four-bar"),
+    "first.slider_crank_offset": _("Slider-crank"),
+    "first.toggle_press": _("Toggle press"),
+    "first.theo_jansen_leg": _("Jansen leg"),
+    "first.shaper_quick_return": _("Quick-return shaper"),
+    "first.gallery": _("Gallery ({count})"),
+    "first.curve": _("Follow a curve"),
+    "first.photo": _("Trace a photo"),
+    "first.close": _("Back to the sheet"),
+}
+
+LOADS: dict[str, Message] = _HINTS | _VALUES | _REFUSALS | _SHOWN | _FIRST

@@ -3,6 +3,7 @@ import { useEffect } from "preact/hooks";
 import type { Session } from "../../session";
 import { type Bench, type DockName, DOCKS } from "../bench";
 import { Curves, CurvesHead } from "./curves";
+import { Progress, Synthesis } from "./synthesis";
 import { beginning, TimeLine } from "./transport";
 
 export function Dock({ bench }: { bench: Bench }) {
@@ -18,6 +19,7 @@ export function Dock({ bench }: { bench: Bench }) {
       <div class="dock-head">
         <Tabs bench={bench} />
         {open === "curves" && session && <CurvesHead bench={bench} session={session} />}
+        {open === "synthesis" && <Progress bench={bench} kinds={["curve", "synthesis"]} />}
       </div>
       {open && <div class="dock-panel" role="tabpanel" id="dock-panel" aria-labelledby={`dock-tab-${open}`}><Panel bench={bench} name={open} /></div>}
     </section>
@@ -27,6 +29,7 @@ export function Dock({ bench }: { bench: Bench }) {
 function Panel({ bench, name }: { bench: Bench; name: DockName }) {
   const session = bench.session.value;
   if (name === "curves") return session && session.data.positions.count > 1 ? <Curves key={session} bench={bench} session={session} /> : <p class="no-curves">{bench.say("dock.no_machine")}</p>;
+  if (name === "synthesis") return <Synthesis bench={bench} />;
   return null;
 }
 

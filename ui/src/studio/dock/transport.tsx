@@ -19,7 +19,7 @@ const angle = (x: number) => `${neat(x / DEGREE).toFixed(1).replace("-", "−")}
 
 /** A coordinate of the input as it is read. */
 const shown = (x: number, turns: boolean, size: number) => (turns ? angle(x) : quantity(neat(x), "length", size));
-const tick = (x: number, turns: boolean, size: number) => (turns ? `${digits(neat(x / DEGREE), 4)}°` : quantity(neat(x), "length", size, 3));
+const tick = (x: number, turns: boolean, size: number) => (turns ? `${String(Math.round(10 * neat(x / DEGREE)) / 10).replace("-", "−")}°` : quantity(neat(x), "length", size, 3));
 
 export function TimeLine({ bench }: { bench: Bench }) {
   const session = bench.session.value, gap = bench.gap.value, moves = session && session.data.positions.count > 1;

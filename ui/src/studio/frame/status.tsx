@@ -3,6 +3,7 @@ import { effect, type Signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import type { Bench, Settings } from "../bench";
 import { FULL } from "../sheet/camera";
+import { spacing } from "../sheet/grid";
 import { Square } from "./controls";
 import { Icon } from "./icons";
 import { type Choices, MenuButton } from "./menu";
@@ -28,15 +29,15 @@ export function Status({ bench }: { bench: Bench }) {
   );
 }
 
-/** A note of the page, else what the drawing is now; said aloud when it changes. */
-function Said({ bench }: { bench: Bench }) {
+/** A note of the page, else what the drawing is now; said aloud when it changes. `brief`: only what must be said. */
+export function Said({ bench, brief }: { bench: Bench; brief?: boolean }) {
   const { desk, page } = bench, { structure, findings, sentence, outline } = desk.solved.value, note = page.note.value;
-  const errors = findings.filter(({ severity }) => severity === "error").length, gap = bench.gap.value;
-  const empty = outline && !Object.keys(outline.entries.links ?? {}).length;
+  const gap = bench.gap.value, empty = outline !== undefined && !Object.keys(outline.entries.links ?? {}).length;
+  const errors = !empty && findings.some(({ severity }) => severity === "error");
   const words = note || gap?.title || (structure?.headline ?? (empty ? bench.say("status.empty") : sentence));
   const sign = note ? "info" : gap || errors ? "alert" : structure ? "check" : null;
   return (
-    <p class={`said ${sign ?? ""}`} role="status">
+    <p class={`said ${sign ?? ""}`} role="status" hidden={brief && !note && !gap}>
       {sign && <Icon name={sign} size={15} />}
       <span>{words}</span>
     </p>
@@ -67,7 +68,7 @@ function Sheet({ bench }: { bench: Bench }) {
   return (
     <>
       <button class="snap" aria-pressed={snap} data-tip={bench.say("snap.help")} onClick={() => bench.set({ snap: !snap })}><Icon name="magnet" size={16} />{bench.say("snap")}</button>
-      <MenuButton label={bench.say("grid.spacing")} choices={grids}>{bench.say("grid.now", { value: grid ? `${plain(grid / factor)} ${unit}` : bench.say("grid.auto") })}<Icon name="chevron" size={12} /></MenuButton>
+      <MenuButton label={bench.say("grid.spacing")} choices={grids}>{bench.say("grid.now", { value: "" })}<Spacing bench={bench} /><Icon name="chevron" size={12} /></MenuButton>
       <MenuButton label={bench.say("unit")} choices={units} name={bench.say("unit.now", { unit })}>{unit}<Icon name="chevron" size={12} /></MenuButton>
       <span class="zoom" role="group" aria-label={bench.say("zoom")}>
         <Square icon="minus" size={14} name={bench.say("zoom.out")} keys="−" act={() => view()?.zoom(1 / ZOOM)} />
@@ -77,6 +78,16 @@ function Sheet({ bench }: { bench: Bench }) {
       </span>
     </>
   );
+}
+
+/** The spacing of the grid as it is drawn, written without rendering the line again. */
+function Spacing({ bench }: { bench: Bench }) {
+  const host = useRef<HTMLSpanElement>(null);
+  useEffect(() => effect(() => {
+    const { grid, unit } = bench.settings.value, [factor] = UNITS[unit];
+    host.current!.textContent = `${plain(spacing(bench.scale.value, grid) / factor)} ${unit}`;
+  }), []);
+  return <span ref={host} />;
 }
 
 /** The zoom, written without rendering the line again. */

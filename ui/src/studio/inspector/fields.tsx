@@ -69,7 +69,7 @@ export function Typing({ id, label, name, value, unit, set, follows = false, pre
   const commit = async (text: string) => {
     window.clearTimeout(timer.current);
     if (!set) return;
-    const plain = typed(text, own_unit || (shown.number || !value ? unit : ""));
+    const plain = typed(text, own_unit || unit);
     if (plain === value || (!plain && !optional) || (!value && plain === typed(preset, unit))) {
       setDraft(null);
       return setFault("");
@@ -92,7 +92,7 @@ export function Typing({ id, label, name, value, unit, set, follows = false, pre
       const now = read(input.value), way = event.key === "ArrowUp" ? 1 : -1;
       if (!now.number || !set) return;
       event.preventDefault();
-      const next = stepped(now.number, way, event.shiftKey ? 10 : event.altKey ? 0.1 : 1) + (now.unit ? ` ${now.unit}` : "");
+      const next = stepped(now.number, way, event.shiftKey ? 10 : event.altKey ? 0.1 : 1, !own_unit && /^-?\d+$/.test(now.number)) + (now.unit ? ` ${now.unit}` : "");
       setDraft(next);
       window.clearTimeout(timer.current);
       timer.current = window.setTimeout(() => void commit(next), REST);

@@ -24,7 +24,9 @@ export function foundIn(bench: Bench): Shown[] {
   if (outline && !Object.keys(table(outline.entries.links)).length && !Object.keys(outline.entries.frame ?? {}).length) return [];
   const shown: Shown[] = gap ? [{ severity: "error", title: gap.title, sentence: gap.sentence, line: 0, items: gapItems(gap), remedies: gap.remedies }] : [];
   if (sentence && !model && !gap && !findings.some(({ severity }) => severity === "error")) shown.push({ severity: "error", title: "", sentence, line: 0, items: [], remedies: [] });
-  return [...shown, ...findings.map((found): Shown => ({ severity: found.severity, sentence: found.sentence, line: found.line, title: "", items: itemsOf(bench, found), remedies: [] }))];
+  const order = ["error", "warning"], all = [...shown, ...findings.map((found): Shown => ({ severity: found.severity, sentence: found.sentence, line: found.line, title: "", items: itemsOf(bench, found), remedies: [] }))];
+  const rank = ({ severity }: Shown) => (order.includes(severity) ? order.indexOf(severity) : order.length);
+  return all.sort((a, b) => rank(a) - rank(b));
 }
 
 const gapItems = ({ chains, point }: Gap): Item[] => [...chains.flat().map((name): Item => ({ kind: "link", name })), ...(point ? [{ kind: "point", name: point } as Item] : [])];

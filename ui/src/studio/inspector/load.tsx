@@ -81,7 +81,7 @@ function Direction({ bench, name, load, entries }: { bench: Bench; name: string;
     const angle = own || word(load.in_link) || "0 deg";
     if (to === "link") return { in_link: angle };
     if (to === "opposes") return { opposes: "velocity" };
-    if (to === "guide" && lead) return { direction: against(own, lead) ? turned(lead) : lead };
+    if (to === "guide" && lead) return { direction: against(angle, lead) ? turned(lead) : lead };
     if (to === "guide") return { along: words(guide?.direction) };
     return { direction: angle };
   };

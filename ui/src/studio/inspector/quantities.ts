@@ -33,10 +33,9 @@ export function typed(text: string, unit: string): string {
   return own ? (known(`${found.number} ${own}`)?.text ?? `${found.number} ${own}`) : found.number;
 }
 
-/** The number a step further, in steps of its last digit but at least of its third one; `share`: of a step. */
-export function stepped(number: string, way: 1 | -1, share = 1): string {
-  const value = Number(number), [, decimals = ""] = /\.(\d*)/.exec(number) ?? [];
-  const size = Math.abs(value) || 1, step = Math.max(10 ** -decimals.length, 10 ** (Math.floor(Math.log10(size)) - 2)) * share;
+/** The number a step further: about a hundredth of its size, a power of ten; `whole`: not less than one; `share`: of a step. */
+export function stepped(number: string, way: 1 | -1, share = 1, whole = false): string {
+  const value = Number(number), power = value ? Math.round(Math.log10(Math.abs(value)) - 2) : 0, step = whole ? 1 : 10 ** power * share;
   const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   return String(Number(((Math.round(value / step) + way) * step).toFixed(digits)));
 }

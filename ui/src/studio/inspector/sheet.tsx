@@ -1,7 +1,9 @@
 // The sheet itself, where nothing is selected: units, grid, gravity, what the machine is called, drafts.
-import { useEffect, useId, useState } from "preact/hooks";
+import { useId } from "preact/hooks";
 import type { Bench, Settings } from "../bench";
 import { Icon } from "../frame/icons";
+import { draftNote, draftTitle, useFolder } from "../frame/open";
+import { when } from "../frame/when";
 import { put, set, tell, unset } from "./change";
 import { at, isTable, type Path, type Table, word } from "./entries";
 import { Choice, Quantity, Section, Switch } from "./fields";
@@ -9,6 +11,8 @@ import { GravityFields } from "./gravity";
 import { allLoads, GRAVITY, gravityOf, gravityText, LoadList } from "./loads_list";
 import { inUnit, si } from "./quantities";
 
+/** Drafts that are listed. */
+const MOST = 12;
 const UNITS: Settings["unit"][] = ["mm", "cm", "m", "in"];
 
 export function SheetPanel({ bench }: { bench: Bench }) {
@@ -57,39 +61,18 @@ function Words({ bench, label, path, entries }: { bench: Bench; label: string; p
   );
 }
 
-/** A draft as the server lists it. */
-interface Draft {
-  name: string;
-  /** ms since 1970. */
-  time: number;
-  saved: boolean;
-}
-
 function Drafts({ bench }: { bench: Bench }) {
-  const { say, desk } = bench, [drafts, setDrafts] = useState<Draft[]>([]);
-  useEffect(() => void desk.ask<{ drafts: (string | Partial<Draft> & { name: string })[] }>("files").then((found) => {
-    const all = (found?.drafts ?? []).map((each) => typeof each === "string" ? { name: each, time: 0, saved: false } : { name: each.name, time: each.time ?? 0, saved: each.saved ?? false });
-    setDrafts(all.filter(({ name }) => name !== desk.name.value).sort((a, b) => b.time - a.time));
-  }), [desk.name.value, desk.dirty.value]);
+  const { say, desk, page } = bench, drafts = (useFolder(bench, `${desk.name.value} ${desk.dirty.value}`)?.drafts ?? []).filter(({ name }) => name !== desk.name.value);
   if (!drafts.length) return null;
   return (
     <Section bench={bench} id="insp.drafts" title={say("insp.drafts")} count={drafts.length}>
       {() => (
         <ul class="list">
-          {drafts.slice(0, 12).map(({ name, time, saved }) => (
-            <li key={name}><button type="button" onClick={() => void desk.open({ name })}><b>{name.replace(/\.ya?ml$/, "")}</b><span>{time ? when(bench, time) : ""}</span><small>{say(saved ? "insp.changed_since" : "insp.never_saved")}</small></button></li>
+          {drafts.slice(0, MOST).map((each) => (
+            <li key={each.name}><button type="button" onClick={() => void desk.open({ name: each.name })}><b>{draftTitle(each)}</b><span>{when(each.time, page.language.value, say)}</span><small>{draftNote(bench, each)}</small></button></li>
           ))}
         </ul>
       )}
     </Section>
   );
-}
-
-/** "today 14:02", "yesterday 18:15", a date. */
-function when(bench: Bench, time: number): string {
-  const date = new Date(time), language = bench.page.language.value === "zh" ? "zh-CN" : "en-GB", clock = date.toLocaleTimeString(language, { hour: "2-digit", minute: "2-digit" });
-  const midnight = new Date().setHours(0, 0, 0, 0), day = 86_400_000;
-  if (time >= midnight) return bench.say("insp.today", { time: clock });
-  if (time >= midnight - day) return bench.say("insp.yesterday", { time: clock });
-  return date.toLocaleDateString(language, { day: "numeric", month: "short" });
 }

@@ -25,6 +25,8 @@ export class Hand {
   private readonly set: HTMLButtonElement;
   private inputs: Input[] = [];
   private known = "";
+  /** Whether quiet fields are shown, too: something is typed. */
+  private called = false;
 
   constructor(private readonly board: Board, stage: HTMLElement) {
     const make = <K extends keyof HTMLElementTagNameMap>(tag: K, style: string, parent?: HTMLElement) => {
@@ -33,15 +35,15 @@ export class Hand {
       return made;
     };
     this.panel = make("form", "hand-panel", stage);
-    const head = make("p", "snapped", this.panel), magnet = element("svg", { class: "icon", viewBox: "0 0 20 20", width: 16, height: 16, "aria-hidden": "true" }, head);
+    const head = make("p", "hand-snap", this.panel), magnet = element("svg", { class: "icon", viewBox: "0 0 20 20", width: 16, height: 16, "aria-hidden": "true" }, head);
     for (const [style, d] of strokes("magnet")) element("path", { class: `i-${style}`, d }, magnet);
     this.title = make("span", "", head);
-    this.row = make("div", "pair", this.panel);
-    this.set = make("button", "set", this.row);
+    this.row = make("div", "hand-row", this.panel);
+    this.set = make("button", "hand-set", this.row);
     this.set.type = "submit";
-    this.error = make("p", "error", this.panel);
+    this.error = make("p", "hand-error", this.panel);
     this.error.setAttribute("role", "alert");
-    this.keys = make("p", "keys", this.panel);
+    this.keys = make("p", "hand-keys", this.panel);
     this.panel.hidden = true;
     this.panel.addEventListener("submit", (event) => {
       event.preventDefault();
@@ -55,20 +57,18 @@ export class Hand {
   }
 
   get fields(): Field[] {
-    return (this.board.tool.fields?.() ?? []).filter(({ quiet, text }) => !quiet || text !== null);
+    return (this.board.tool.fields?.() ?? []).filter(({ quiet, text }) => !quiet || text !== null || this.called);
   }
 
-  /** Takes the first of what is typed; true where there is a field for it. */
+  /** Takes the first of what is typed, in a field that may have been quiet; true where there is one. */
   begin(): boolean {
+    this.called = true;
+    this.show();
     const first = this.inputs[0];
     if (this.panel.hidden || !first) return false;
     first.field.focus();
     first.field.select();
     return true;
-  }
-
-  get open(): boolean {
-    return !this.panel.hidden;
   }
 
   private enter(): void {
@@ -106,6 +106,11 @@ export class Hand {
 
   /** Shows the values as they are now, beside the point in hand. */
   draw(): void {
+    this.called &&= this.panel.contains(document.activeElement);
+    this.show();
+  }
+
+  private show(): void {
     const { board, panel } = this, { bench, spot } = board, { fields } = this;
     panel.hidden = !fields.length;
     if (!fields.length) {
@@ -119,6 +124,8 @@ export class Hand {
     const snapped = board.tool.note?.() || (spot?.snap?.sentence ?? "");
     if (this.title.textContent !== snapped) this.title.textContent = snapped;
     this.title.parentElement!.hidden = !snapped;
+    // It goes with a mouse, which would never reach it, and is not in its way.
+    panel.classList.toggle("passed", !spot?.touch);
     if (spot) this.put(spot.screen);
   }
 
@@ -135,7 +142,7 @@ export class Hand {
     this.inputs = fields.map((field) => {
       const box = document.createElement("label"), label = document.createElement("span"), input = document.createElement("input"), unit = document.createElement("span");
       label.textContent = field.label;
-      unit.className = "unit";
+      unit.className = "hand-unit";
       Object.assign(input, { type: "text", autocomplete: "off", spellcheck: false, inputMode: field.quantity === "teeth" ? "text" : "decimal", name: field.key });
       box.append(label, input, unit);
       box.classList.toggle("first", field === fields[0]);

@@ -23,6 +23,8 @@ export class Keys {
     };
     on("keydown", (event) => !event.defaultPrevented && !elsewhere(event) && this.down(event) && event.preventDefault());
     on("keyup", (event) => this.up(event));
+    // The sheet shows that it has the keys where these brought it there.
+    on("keydown", ({ key }) => key === "Tab" && board.host.classList.add("by-keys"));
   }
 
   end(): void {
@@ -38,10 +40,7 @@ export class Keys {
     if (key in WAYS) return onSheet && this.arrow(WAYS[key], event);
     if (key === "Enter") return onSheet && this.enter(event);
     if (key === "Delete" || key === "Backspace") return onSheet && erase(board);
-    if (TYPED.test(key) && this.hand.open) {
-      this.hand.begin();
-      return false;
-    }
+    if (TYPED.test(key) && this.hand.begin()) return false;
     if (event.shiftKey && event.code === "Digit1") return (board.fit(), true);
     if (event.shiftKey && event.code === "Digit2") return (board.fitSelection(), true);
     if (event.shiftKey && key.toLowerCase() === "m") return mirror(board);
@@ -127,6 +126,7 @@ export class Keys {
     } else {
       const [x, y] = camera.world([w / 2, h / 2]);
       this.go([Math.round(x / step) * step, Math.round(y / step) * step], event);
+      board.host.classList.add("by-keys");
       board.said.value = board.bench.say("sheet.cross");
     }
     return true;

@@ -4,7 +4,6 @@ import type { Call } from "../../engine";
 import type { Guide, Picture } from "../../picture";
 import type { Session } from "../../session";
 import type { Vec } from "../../shapes";
-import type { Bench } from "../bench";
 import type { Camera } from "./camera";
 import type { Scene } from "./scene";
 
@@ -42,11 +41,6 @@ export class Stand {
     if (!session) return;
     const { main, solver, n } = session.model, between = Number.isInteger(place) ? null : solver.whole(place);
     [this.call, this.k] = between ? [between, 0] : [main, Math.round(place) % n];
-  }
-
-  static of(bench: Bench, scene: Scene, place?: number): Stand {
-    const session = bench.session.value;
-    return new Stand(scene, bench.desk.solved.value.picture, session, place ?? (session ? bench.page.index(session) : 0));
   }
 
   get loads(): Record<string, Load> {

@@ -10,15 +10,19 @@ import type { Board } from "./sheet";
 /** Where the texts of lengths stand on the screen, by the address of the dimension. */
 export type Placed = Map<string, Vec>;
 
-// What pins take of a bar's ends; the least length of a bar with its length and its name beside it, px.
-const PIN = 5.5, LEAST = 44, ASIDE = 15;
+// What pins take of a bar's ends; the least length of a bar with its length and its name beside it; how far these are from it, px.
+const PIN = 5.5, LEAST = 44, ASIDE = 15, OFF = 24;
 
 /** Marks under the machine and over it; gives where lengths stand. */
 export function drawMarks(board: Board, below: Pencil, above: Pencil): Placed {
   const { bench } = board, hovered = bench.hovered.value, placed: Placed = new Map();
   for (const item of bench.selection.value) mark(board, item, below, above, true);
   if (hovered && !bench.has(hovered)) mark(board, hovered, below, above, false);
-  lengths(board, above, placed, bench.shows("dimensions"));
+  for (const { link, ends: [a, b], side, text, hand } of lengths(board)) {
+    const u = along(a, b);
+    above.dimension(a, b, text, hand ? "hand" : "soft", OFF * side);
+    placed.set(`${link}.length`, [(a[0] + b[0]) / 2 + OFF * side * u[1], (a[1] + b[1]) / 2 - OFF * side * u[0]]);
+  }
   if (bench.shows("names")) linkNames(board, above);
   return placed;
 }
@@ -42,24 +46,50 @@ function mark({ scene, camera }: Board, { kind, name }: Item, below: Pencil, abo
   above.circle(camera.screen(at), 5, selected ? "selected" : "hovered");
 }
 
-/** Lengths of bars: all of them, or those that a hand is changing. */
-function lengths({ scene, camera, bench, measured }: Board, above: Pencil, placed: Placed, all: boolean): void {
-  const { unit } = bench.settings.value, middle = centre([...scene.points.values()].map(({ at }) => camera.screen(at)));
-  for (const [name, points] of Object.entries(scene.links)) {
-    const [a, b] = scene.corners(name);
-    const moved = measured.includes(name);
-    if (points.length !== 2 || !a || !b || !(all || moved)) continue;
-    const [p, q] = [camera.screen(a), camera.screen(b)];
-    if (far(p, q) < LEAST) continue;
-    const side = outer(p, q, middle), text = reads(dist(a, b), "length", unit), on = moved || bench.has({ kind: "link", name }) || bench.has({ kind: "dimension", name: `${name}.length` });
-    above.dimension(p, q, text, on ? "hand" : "soft", 24 * side);
-    const u = along(p, q);
-    placed.set(`${name}.length`, [(p[0] + q[0]) / 2 + 24 * side * u[1], (p[1] + q[1]) / 2 - 24 * side * u[0]]);
-  }
+/** A length beside its bar, on the screen. */
+export interface Length {
+  link: string;
+  ends: [Vec, Vec];
+  /** On which side of the way from the first end to the second: 1 or -1. */
+  side: number;
+  text: string;
+  hand: boolean;
 }
 
-function linkNames({ scene, camera, bench }: Board, above: Pencil): void {
-  const middle = centre([...scene.points.values()].map(({ at }) => camera.screen(at)));
+/** Lengths of bars: all of them where dimensions are shown, else those that a hand is changing. */
+export function lengths(board: Board): Length[] {
+  const { scene, camera, bench, measured } = board, { unit } = bench.settings.value, all = bench.shows("dimensions");
+  return Object.entries(scene.links).flatMap(([link, points]) => {
+    const corners = scene.corners(link), moved = measured.includes(link);
+    if (points.length !== 2 || corners.length !== 2 || !(all || moved)) return [];
+    const ends = corners.map((each) => camera.screen(each)) as [Vec, Vec];
+    if (far(...ends) < LEAST) return [];
+    const hand = moved || bench.has({ kind: "link", name: link }) || bench.has({ kind: "dimension", name: `${link}.length` });
+    return [{ link, ends, side: sideOf(board, link), text: reads(dist(corners[0], corners[1]), "length", unit), hand }];
+  });
+}
+
+/** Strokes of lengths and their texts, which names keep clear of. */
+export function inkOf(all: Length[]): number[] {
+  return all.flatMap(({ ends: [a, b], side, text }) => {
+    const u = along(a, b), out = ([x, y]: Vec, by: number): Vec => [x + by * side * u[1], y - by * side * u[0]], [p, q] = [out(a, OFF), out(b, OFF)];
+    const middle = out([(a[0] + b[0]) / 2, (a[1] + b[1]) / 2], OFF + 8), half = 3.2 * text.length;
+    return [...p, ...q, ...out(a, 9), ...p, ...out(b, 9), ...q, middle[0] - half * u[0], middle[1] - half * u[1], middle[0] + half * u[0], middle[1] + half * u[1]];
+  });
+}
+
+/** The side of a bar that is away from the middle of the drawing; it stays while the machine moves. */
+function sideOf({ scene, camera, sides }: Board, link: string): number {
+  const known = sides.get(link);
+  if (known) return known;
+  const [p, q] = scene.corners(link).map((each) => camera.screen(each)), middle = centre([...scene.points.values()].map(({ at }) => camera.screen(at)));
+  const side = (q[0] - p[0]) * (middle[1] - p[1]) - (q[1] - p[1]) * (middle[0] - p[0]) > 0 ? 1 : -1;
+  sides.set(link, side);
+  return side;
+}
+
+function linkNames(board: Board, above: Pencil): void {
+  const { scene, camera, bench } = board;
   for (const name of Object.keys(scene.links)) {
     const corners = scene.corners(name).map((each) => camera.screen(each)), on = bench.has({ kind: "link", name });
     if (corners.length < 2 || Math.max(...corners.map((each) => far(each, corners[0]))) < LEAST) continue;
@@ -67,15 +97,10 @@ function linkNames({ scene, camera, bench }: Board, above: Pencil): void {
       above.text(centre(corners), name, on ? "link-name hand" : "link-name");
       continue;
     }
-    const [p, q] = corners, side = -outer(p, q, middle), u = along(p, q), at: Vec = [(p[0] + q[0]) / 2 + ASIDE * side * u[1], (p[1] + q[1]) / 2 - ASIDE * side * u[0] + 4];
+    const [p, q] = corners, side = -sideOf(board, name), u = along(p, q), at: Vec = [(p[0] + q[0]) / 2 + ASIDE * side * u[1], (p[1] + q[1]) / 2 - ASIDE * side * u[0] + 4];
     const flat = Math.abs(u[0]) > 0.8, style = flat ? "" : side * u[1] > 0 ? " start" : " end";
     above.text(at, name, `link-name${style}${on ? " hand" : ""}`);
   }
-}
-
-/** On which side of a bar the middle of the drawing is not: 1 or -1. */
-function outer(p: Vec, q: Vec, middle: Vec): number {
-  return (q[0] - p[0]) * (middle[1] - p[1]) - (q[1] - p[1]) * (middle[0] - p[0]) > 0 ? 1 : -1;
 }
 
 function centre(all: Vec[]): Vec {

@@ -56,7 +56,9 @@ export class Pencil implements Overlay {
     const head = ([x, y]: Vec, way: number) =>
       `M${tenth(x)} ${tenth(y)}L${tenth(x + way * HEAD * u - HALF * v)} ${tenth(y + way * HEAD * v + HALF * u)}L${tenth(x + way * HEAD * u + HALF * v)} ${tenth(y + way * HEAD * v - HALF * u)}Z`;
     this.path(head(from, 1) + head(to, -1), `head ${style}`);
-    this.text(out([(from[0] + to[0]) / 2, (from[1] + to[1]) / 2], 4), text, `dim ${style}`, upright(Math.atan2(v, u)));
+    // A text rises from its line: on the far side of it, its foot is farther away.
+    const turn = upright(Math.atan2(v, u)), rad = (turn * Math.PI) / 180, away = n[0] * Math.sin(rad) - n[1] * Math.cos(rad) > 0 ? 4 : 13;
+    this.text(out([(from[0] + to[0]) / 2, (from[1] + to[1]) / 2], away), text, `dim ${style}`, turn);
   }
 }
 

@@ -27,7 +27,6 @@ export class Pointers {
     on("pointercancel", (event) => this.cancel(event));
     on("pointerleave", (event) => !this.doing && event.pointerType !== "touch" && board.point(null));
     on("wheel", (event) => this.wheel(event));
-    on("blur", () => host.classList.remove("by-pointer"));
     on("auxclick", (event) => event.preventDefault());
   }
 
@@ -47,7 +46,7 @@ export class Pointers {
   private down(event: PointerEvent): void {
     const { board } = this, at = this.at(event), touch = event.pointerType === "touch";
     if (event.target instanceof Element && event.target.closest("button, input, label")) return;
-    board.host.classList.add("by-pointer");
+    board.host.classList.remove("by-keys");
     board.host.focus({ preventScroll: true });
     board.bench.refusal.value = null;
     board.cross = null;

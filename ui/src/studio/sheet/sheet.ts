@@ -13,7 +13,7 @@ import { heading } from "./geometry";
 import { Grid, spacing } from "./grid";
 import { FINGER, NEAR, under } from "./hits";
 import { type DrawnLoad, drawnLoads, Stand } from "./loads";
-import { drawMarks, type Placed } from "./marks";
+import { drawMarks, inkOf, lengths, type Placed } from "./marks";
 import { pointWords, spoken } from "./names";
 import { Pencil } from "./overlay";
 import { Scene } from "./scene";
@@ -22,6 +22,8 @@ import { REACH, snap } from "./snap";
 
 /** Tools that work on the machine as it stands or on what lies beside it: the others draw, at the drawn position. */
 const STAYS = new Set<ToolName>(["move", "dimension", "target", "photo", "erase"]);
+/** Tools that put something where the pointer snaps to. */
+const PLACING = new Set<ToolName>(["pivot", "link", "plate", "slider", "slot", "force", "spring", "cam"]);
 /** How often a tool is used until its hint goes. */
 const KNOWN = 3;
 
@@ -42,6 +44,8 @@ export class Board implements Sheet {
   measured: string[] = [];
   /** Points that a hand has lifted from where the text has them. */
   lifted: Record<string, Vec> | null = null;
+  /** On which sides of their bars lengths stand. */
+  readonly sides = new Map<string, number>();
   /** Where lengths stand that are drawn beside their links, on the screen. */
   private placed: Placed = new Map();
   private readonly grid: Grid;
@@ -79,6 +83,7 @@ export class Board implements Sheet {
       const { picture, model, text } = desk.solved.value;
       if (!picture && !model && text === undefined) this.fitting = true;
       if (text === desk.text.value) this.own = picture;
+      if (Object.keys(picture?.links ?? {}).join() !== [...this.sides.keys()].join()) this.sides.clear();
       this.touch();
     });
     this.follow(() => {
@@ -155,10 +160,15 @@ export class Board implements Sheet {
     return point?.links.length === 1 && !point.fixed && !this.scene.guided.includes(name) && this.scene.links[point.links[0]].length === 2;
   }
 
+  /** The machine or the drawing as it stands, with directions and loads. */
+  get stand(): Stand {
+    const session = this.solved;
+    return new Stand(this.scene, this.picture, session, session ? this.place : 0);
+  }
+
   /** Loads as they are drawn now. */
   get loads(): DrawnLoad[] {
-    const session = this.solved;
-    return this.bench.shows("loads") ? drawnLoads(new Stand(this.scene, this.picture, session, session ? this.place : 0), this.camera) : [];
+    return this.bench.shows("loads") ? drawnLoads(this.stand, this.camera) : [];
   }
 
   /** A place on the grid, unless it is held off. */
@@ -226,16 +236,18 @@ export class Board implements Sheet {
       bench.scale.value = camera.scale;
     }
     machine.hidden = !base;
+    const ink = inkOf(lengths(this));
     if (base && this.view) {
       const { session } = base, { page } = bench;
       Object.assign(session.shown, { names: bench.shows("names"), velocities: bench.shows("velocities"), accelerations: bench.shows("accelerations"), forces: bench.shows("forces"), centres: bench.shows("centres") });
       machine.classList.toggle("without-loads", !bench.shows("loads"));
       machine.classList.toggle("without-paths", !bench.shows("paths"));
       this.view.index = page.place(session);
+      this.view.taken = ink;
       this.view.look();
     }
     if (base && !base.added) sketch.clear();
-    else sketch.draw(this.scene, camera, bench.shows("names"), base?.added ?? null);
+    else sketch.draw(this.scene, camera, bench.shows("names"), base?.added ?? null, ink);
     this.seen = seen;
   }
 
@@ -246,7 +258,7 @@ export class Board implements Sheet {
       over.path(`M${x - 12} ${y}H${x - 3}M${x + 3} ${y}H${x + 12}M${x} ${y - 12}V${y - 3}M${x} ${y + 3}V${y + 12}`, "hand cross");
     }
     const snapped = spot?.snap;
-    if (!snapped || this.tool.name === "move" || this.tool.name === "erase") return;
+    if (!snapped || !PLACING.has(this.tool.name)) return;
     if (snapped.kind === "point" || snapped.kind === "link" || snapped.kind === "length") over.circle(camera.screen(snapped.at), 11, "snap");
     else over.circle(camera.screen(snapped.at), 3, "spot");
   }

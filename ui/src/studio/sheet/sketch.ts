@@ -9,7 +9,6 @@ import type { Scene } from "./scene";
 const LAYERS = ["bodies", "blocks", "supports", "pins", "names"];
 const PIN = 5, POINT = 2.8;
 
-/** What is drawn of a picture: all of it, or what another one has not. */
 export class Sketch {
   readonly svg: SVGElement;
 
@@ -21,10 +20,11 @@ export class Sketch {
     if (this.svg.firstChild) this.svg.replaceChildren();
   }
 
-  draw(scene: Scene, camera: Camera, names: boolean, known: Picture | null): void {
+  /** All of a picture, or what another one has not; `taken`: strokes which names keep clear of, too. */
+  draw(scene: Scene, camera: Camera, names: boolean, known: Picture | null, taken: number[]): void {
     this.svg.replaceChildren();
     const layer = Object.fromEntries(LAYERS.map((name) => [name, element("g", { class: `lw-${name}` }, this.svg)]));
-    const ink: number[] = [], [w, h] = camera.size, labelled: string[] = [];
+    const ink = [...taken], [w, h] = camera.size, labelled: string[] = [];
     const inked = (corners: Vec[]) => corners.forEach((corner, k) => k && ink.push(...corners[k - 1], ...corner));
     for (const name of Object.keys(scene.links)) {
       if (known && same(known.links[name], scene.links[name])) continue;

@@ -3,6 +3,8 @@ import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { Bench } from "../bench";
 import { Hand } from "./hand";
 import { Keys } from "./keys";
+import { layLayers } from "./layers";
+import "./loads.css";
 import { Pointers } from "./pointer";
 import { Board } from "./sheet";
 
@@ -14,6 +16,7 @@ export function Stage({ bench }: { bench: Bench }) {
   useLayoutEffect(() => {
     const made = new Board(bench, host.current!), hand = new Hand(made, stage.current!), keys = new Keys(made, hand, new Pointers(made));
     made.drawn = () => hand.draw();
+    const layers = layLayers(made);
     bench.sheet.value = bench.view = made;
     bench.reveal = (items) => made.reveal(items);
     setBoard(made);
@@ -21,6 +24,7 @@ export function Stage({ bench }: { bench: Bench }) {
       bench.sheet.value = bench.view = null;
       keys.end();
       hand.end();
+      layers();
       made.end();
     };
   }, []);

@@ -1,6 +1,6 @@
 // Drive: a click on a link turns it about its pivot, on a slider moves it along its guide, again removes the drive.
 import type { Action, Drive } from "../../picture";
-import { arcPath, Stand } from "../sheet/loads";
+import { arcPath, type Stand } from "../sheet/loads";
 import { Clicks, pivotOf, TypedValues } from "./hand";
 import type { Field, MakeTool, Overlay, Sheet, Spot, Tool } from "./tool";
 import type { Item } from "../bench";
@@ -21,7 +21,7 @@ class DriveTool implements Tool {
   }
 
   private get stand(): Stand {
-    return Stand.of(this.sheet.bench, this.sheet.scene);
+    return this.sheet.stand;
   }
 
   hint(): [string] {

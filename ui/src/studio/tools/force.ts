@@ -1,6 +1,6 @@
 // Force: a press on a point and a drag; the length of the arrow is the size, it pushes towards its point.
 import type { Vec } from "../../shapes";
-import { arrowPath, forceScale, nice, Stand } from "../sheet/loads";
+import { arrowPath, forceScale, nice, type Stand } from "../sheet/loads";
 import { type Aim, aimed, direction } from "./aim";
 import { type Grip, grip } from "./grip";
 import { Clicks, polar, TypedValues } from "./hand";
@@ -27,7 +27,7 @@ class ForceTool implements Tool {
   }
 
   private get stand(): Stand {
-    return Stand.of(this.sheet.bench, this.sheet.scene);
+    return this.sheet.stand;
   }
 
   hint(): [string] {

@@ -86,7 +86,7 @@ export class TypedValues {
 
   field(key: string, value: number | string, more: Partial<Field> = {}): Field {
     const quantity = this.quantities[key];
-    return { key, label: this.bench.say(`value.${key}`), quantity, value, text: this.raw.get(key) ?? null, ...more };
+    return { key, label: more.label ?? this.bench.say(`value.${key}`), quantity, value, text: this.raw.get(key) ?? null, ...more };
   }
 
   get any(): boolean {

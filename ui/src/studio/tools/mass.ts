@@ -1,6 +1,6 @@
 // Mass: a click on a link and its mass, the moment of inertia follows; its centre is dragged.
 import type { Vec } from "../../shapes";
-import { Stand } from "../sheet/loads";
+import type { Stand } from "../sheet/loads";
 import { Clicks, distance, linkAt, pointAt, TypedValues } from "./hand";
 import { taken } from "./marks";
 import type { Field, MakeTool, Overlay, Sheet, Spot, Tool } from "./tool";
@@ -23,7 +23,7 @@ class MassTool implements Tool {
   }
 
   private get stand(): Stand {
-    return Stand.of(this.sheet.bench, this.sheet.scene);
+    return this.sheet.stand;
   }
 
   hint(): [string] {

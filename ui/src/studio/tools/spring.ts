@@ -1,6 +1,6 @@
 // Spring and its kin: damper, gas spring and cylinder between two points, torsion spring between two links.
 import type { SpringName } from "../bench";
-import { Stand } from "../sheet/loads";
+import type { Stand } from "../sheet/loads";
 import { type Grip, grip } from "./grip";
 import { Clicks, distance, linkAt, pointAt, TypedValues } from "./hand";
 import { LastLoad, type Number } from "./last";
@@ -44,7 +44,7 @@ class SpringTool implements Tool {
   }
 
   private get stand(): Stand {
-    return Stand.of(this.sheet.bench, this.sheet.scene);
+    return this.sheet.stand;
   }
 
   hint(): [string] {

@@ -3,6 +3,7 @@ import type { Action } from "../../picture";
 import type { Vec } from "../../shapes";
 import type { Bench, Item, ToolName } from "../bench";
 import type { Camera } from "../sheet/camera";
+import type { Stand } from "../sheet/loads";
 import type { Scene } from "../sheet/scene";
 
 /** The key that takes each tool; its name is "tool.…" among the words. */
@@ -62,6 +63,8 @@ export interface Sheet {
   readonly bench: Bench;
   readonly camera: Camera;
   readonly scene: Scene;
+  /** The machine or the drawing as it stands, with directions and loads. */
+  readonly stand: Stand;
   /** What else is drawn over the machine, below what the tool draws: called at every drawing, in pixels of the screen. */
   readonly layers: Set<(over: Overlay) => void>;
   /** Where the pointer is now, or was last; null before it has been on the sheet. */

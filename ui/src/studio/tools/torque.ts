@@ -1,6 +1,6 @@
 // Torque: a press on a link and a drag around it; the angle swept is the size, its sense the sign.
 import type { Vec } from "../../shapes";
-import { arcPath, nice, Stand } from "../sheet/loads";
+import { arcPath, nice } from "../sheet/loads";
 import { Clicks, linkAt, turned, TypedValues } from "./hand";
 import { LastLoad } from "./last";
 import { taken } from "./marks";
@@ -41,7 +41,7 @@ class TorqueTool implements Tool {
   up = (spot: Spot) => this.clicks.up(spot);
 
   private get middle(): Vec | null {
-    const stand = Stand.of(this.sheet.bench, this.sheet.scene), middle = stand.middle(this.link);
+    const stand = this.sheet.stand, middle = stand.middle(this.link);
     return middle && this.sheet.camera.screen(middle);
   }
 
@@ -73,7 +73,7 @@ class TorqueTool implements Tool {
 
   /** Newton metres for a radian. */
   private get scale(): number {
-    const loads = Object.values(Stand.of(this.sheet.bench, this.sheet.scene).loads);
+    const loads = Object.values(this.sheet.stand.loads);
     const most = Math.max(0, ...loads.map(({ kind, magnitude }) => (kind === "torque" ? Math.abs(magnitude ?? 0) : 0)));
     return most > 0 ? most / MOST : USUAL / QUARTER;
   }
