@@ -35,7 +35,7 @@ export function Said({ bench, brief }: { bench: Bench; brief?: boolean }) {
   const gap = bench.gap.value, empty = outline !== undefined && !Object.keys(outline.entries.links ?? {}).length;
   const errors = !empty && findings.some(({ severity }) => severity === "error");
   const words = note || gap?.title || (structure?.headline ?? (empty ? bench.say("status.empty") : sentence));
-  const sign = note ? "info" : gap || errors ? "alert" : structure ? "check" : null;
+  const sign = note ? "info" : empty ? null : gap || errors ? "alert" : structure ? "check" : null;
   return (
     <p class={`said ${sign ?? ""}`} role="status" hidden={brief && !note && !gap}>
       {sign && <Icon name={sign} size={15} />}

@@ -9,6 +9,8 @@ import { type View, VECTOR } from "../../view";
 /** Transmission angles that are good, and those with which a machine nearly locks, rad. */
 export const GOOD = (40 * Math.PI) / 180, LOCKS = (20 * Math.PI) / 180;
 const R = 46;
+// About how wide a symbol with its gap and a letter are, px.
+const SIGN = 13, LETTER = 6.9;
 
 /** An angle between two directions at a place of the screen, by its sides (rad, counter-clockwise). */
 export interface Wedge {
@@ -66,14 +68,15 @@ export function drawTransmission({ bench, camera, stand }: Sheet, over: Overlay)
     if (found.back !== null) over.path(`M${at[0]} ${at[1]}L${at[0] + (R + 14) * Math.cos(found.back)} ${at[1] - (R + 14) * Math.sin(found.back)}`, "soft dashed");
     const middle = (arc.from + arc.to) / 2, [x, y] = [at[0] + (R + 12) * Math.cos(middle), at[1] - (R + 12) * Math.sin(middle) + 4], left = Math.cos(middle) < -0.2;
     const text = `${quantity(value, "angle", 1, 3)}${word && ` ${word}`}`;
-    if (left) {
-      over.text([x, y], text, `${style} strong end`);
-      over.text([x - 7.2 * text.length - 3, y], "μ", `${style} name end`);
-    } else {
-      over.text([x, y], "μ", `${style} name start`);
-      over.text([x + 13, y], text, `${style} strong start`);
-    }
+    symbolled(over, [x, y], "μ", text, style, left, " strong");
   }
+}
+
+/** A value behind its symbol, on the right of a place or on its left. */
+function symbolled(over: Overlay, [x, y]: Vec, symbol: string, text: string, style: string, left: boolean, weight = ""): void {
+  const from = left ? x - SIGN - LETTER * text.length : x;
+  over.text([from, y], symbol, `${style} name start`);
+  over.text([from + SIGN, y], text, `${style} start${weight}`);
 }
 
 /** Strokes across an angle that is too small. */
@@ -108,15 +111,24 @@ export function limits(session: Session): Record<string, Vec>[] {
 }
 
 /** Links at the limits of the output, pale; those that the driver turns are left out. */
-export function drawLimits({ bench, camera, scene, stand: { session } }: Sheet, over: Overlay): void {
+export function drawLimits({ bench, camera, scene, stand }: Sheet, over: Overlay): void {
+  const { session } = stand;
   if (!session || !bench.shows("limits")) return;
   const moving = new Set((scene.links[scene.driver ?? ""] ?? []).filter((name) => !scene.points.get(name)?.fixed));
   for (const places of limits(session))
     for (const [name, points] of Object.entries(scene.links)) {
       if (name === scene.driver || points.some((point) => moving.has(point))) continue;
       const corners = points.map((point) => places[scene.points.get(point)?.key ?? ""]).filter((each) => each).map((each) => camera.screen(each));
+      const along = corners.length === 1 ? stand.guideOf(name)?.angle : undefined;
+      if (along !== undefined) over.path(block(corners[0], along), "limit");
       if (corners.length > 1) over.path(corners.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("") + (corners.length > 2 ? "Z" : ""), "limit");
     }
+}
+
+/** The outline of a block that slides. */
+function block([x, y]: Vec, angle: number): string {
+  const [c, s] = [Math.cos(angle), -Math.sin(angle)], corner = (u: number, v: number) => `${(x + u * c - v * s).toFixed(1)} ${(y + u * s + v * c).toFixed(1)}`;
+  return `M${corner(-15, -9)}L${corner(15, -9)}L${corner(15, 9)}L${corner(-15, 9)}Z`;
 }
 
 // vectors --------------------------------------------------------------------------------------
@@ -130,13 +142,7 @@ export function drawVectorSizes({ bench, camera, scene, stand }: Sheet, over: Ov
   const one = (style: string, symbol: string, kind: string, at: Vec, [x, y]: Vec) => {
     const long = VECTOR / view.longest[style], from = camera.screen(at), end: Vec = [from[0] + long * x, from[1] - long * y], left = x < 0;
     const text = quantity(Math.hypot(x, y), kind, Math.hypot(x, y), 3), spot: Vec = [end[0] + (left ? -6 : 6), end[1] + (y > 0 ? -4 : 12)];
-    if (left) {
-      over.text(spot, text, `${style} end`);
-      over.text([spot[0] - 6.4 * text.length - 2, spot[1]], symbol, `${style} name end`);
-    } else {
-      over.text(spot, symbol, `${style} name start`);
-      over.text([spot[0] + 11, spot[1]], text, `${style} start`);
-    }
+    symbolled(over, spot, symbol, text, style, left);
   };
   for (const [shown, style, symbol, row, kind] of FAMILIES) {
     if (!bench.shows(shown) || !view.longest[style]) continue;

@@ -1,37 +1,49 @@
 // What is laid over the machine at every drawing: limits, paths of selected points, loads, transmission angles, vectors,
 // the target curve and curves that are looked at.
-import { effect } from "@preact/signals";
+import { effect, signal } from "@preact/signals";
 import type { Vec } from "../../shapes";
 import { line } from "../../strokes";
 import type { Overlay } from "../tools/tool";
 import { drawLimits, drawTransmission, drawVectorSizes } from "./analysis";
 import { Backdrop, keepPhotos } from "./backdrop";
 import { drawLoadMarks } from "./load_marks";
+import { type Scale, scalesOf } from "./scales";
 import type { Board } from "./sheet";
 
-/** Draws all that belongs to loads and results from now on; ends with the function that it gives. */
-export function layLayers(board: Board): () => void {
-  const { bench } = board, backdrop = new Backdrop(board.host.querySelector("svg.below")!);
-  const layer = (over: Overlay) => {
-    backdrop.draw(bench.photo.value, board.camera);
+/** Draws all that belongs to loads and results from now on. */
+export class Layers {
+  /** Of what is drawn as arrows. */
+  readonly scales = signal<Scale[]>([]);
+  private readonly backdrop: Backdrop;
+  private readonly ends: (() => void)[];
+
+  constructor(private readonly board: Board) {
+    const { bench } = board;
+    this.backdrop = new Backdrop(board.host.querySelector("svg.below")!);
+    board.layers.add(this.draw);
+    const redrawn = effect(() => {
+      void [bench.photo.value, bench.target.value, bench.foreseen.value, bench.tool.value];
+      board.redraw();
+    });
+    this.ends = [() => board.layers.delete(this.draw), redrawn, keepPhotos(bench)];
+  }
+
+  private readonly draw = (over: Overlay) => {
+    const { board } = this;
+    this.backdrop.draw(board.bench.photo.value, board.camera);
     drawLimits(board, over);
     drawPaths(board, over);
     drawLoadMarks(board, over);
     drawTransmission(board, over);
     if (board.view && board.solved) drawVectorSizes(board, over, board.view);
     drawCurves(board, over);
+    const scales = scalesOf(board);
+    if (JSON.stringify(scales) !== JSON.stringify(this.scales.peek())) this.scales.value = scales;
   };
-  board.layers.add(layer);
-  const redrawn = effect(() => {
-    void [bench.photo.value, bench.target.value, bench.foreseen.value];
-    board.redraw();
-  });
-  const kept = keepPhotos(bench);
-  return () => {
-    board.layers.delete(layer);
-    redrawn();
-    kept();
-  };
+
+  end(): void {
+    for (const each of this.ends) each();
+  }
 }
 
 /** Paths of selected points, while they are selected. */

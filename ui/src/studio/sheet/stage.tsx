@@ -1,30 +1,34 @@
 // The sheet in the middle of the window, and what floats over it: hint, refusals, values in hand.
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { Bench } from "../bench";
+import { First } from "./first";
 import { Hand } from "./hand";
 import { Keys } from "./keys";
-import { layLayers } from "./layers";
+import { Layers } from "./layers";
 import "./loads.css";
 import { Pointers } from "./pointer";
 import { Board } from "./sheet";
+import { Scales, ShowBar } from "./show";
 
 /** A refusal goes after this time, ms. */
 const LONG = 6000;
 
 export function Stage({ bench }: { bench: Bench }) {
   const stage = useRef<HTMLElement>(null), host = useRef<HTMLDivElement>(null), [board, setBoard] = useState<Board | null>(null);
+  const [layers, setLayers] = useState<Layers | null>(null);
   useLayoutEffect(() => {
     const made = new Board(bench, host.current!), hand = new Hand(made, stage.current!), keys = new Keys(made, hand, new Pointers(made));
     made.drawn = () => hand.draw();
-    const layers = layLayers(made);
+    const laid = new Layers(made);
     bench.sheet.value = bench.view = made;
     bench.reveal = (items) => made.reveal(items);
     setBoard(made);
+    setLayers(laid);
     return () => {
       bench.sheet.value = bench.view = null;
       keys.end();
       hand.end();
-      layers();
+      laid.end();
       made.end();
     };
   }, []);
@@ -32,6 +36,9 @@ export function Stage({ bench }: { bench: Bench }) {
     <main class="stage" ref={stage} data-tool={bench.tool.value}>
       <div class="paper" ref={host} tabIndex={0} role="application" aria-label={bench.say("sheet.label")} aria-describedby="sheet-keys" />
       <p class="unseen" id="sheet-keys">{bench.say("sheet.keys")}</p>
+      {board && layers && <Scales board={board} layers={layers} />}
+      <ShowBar bench={bench} />
+      {board && <First board={board} />}
       {board && <Hint board={board} />}
       {board && <Refusal board={board} />}
       {board && <p class="unseen" aria-live="polite">{board.said.value}</p>}
