@@ -65,6 +65,22 @@ class Hand(Worded):
         self.tab.evaluate(script, [left, low, right, high])
         self.frame()
 
+    @property
+    def scale(self) -> float:
+        """Pixels for a metre."""
+        return float(self.tab.evaluate("() => bench.sheet.value.camera.scale"))
+
+    @property
+    def step(self) -> float:
+        """The spacing of the grid, m."""
+        return float(self.tab.evaluate("() => bench.sheet.value.step"))
+
+    @property
+    def cross(self) -> Place:
+        """Where the cross of the keyboard is, m."""
+        x, y = self.tab.evaluate("() => bench.sheet.value.cross")
+        return float(x), float(y)
+
     # what it does
 
     def take(self, tool: str) -> None:
@@ -101,6 +117,21 @@ class Hand(Worded):
         """Taps on the sheet with a finger."""
         for place in places:
             self.tab.touchscreen.tap(*self.at(*place))
+
+    def pinch(self, about: Place, before: float, after: float) -> None:
+        """Moves two fingers apart, or together, about a place of the screen (px)."""
+        client = self.tab.context.new_cdp_session(self.tab)
+
+        def send(kind: str, apart: float | None) -> None:
+            sides = [] if apart is None else [-0.5, 0.5]
+            points = [{"x": about[0] + side * (apart or 0), "y": about[1]} for side in sides]
+            client.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+        send("touchStart", before)
+        for k in range(1, 6):
+            send("touchMove", before + (after - before) * k / 5)
+        send("touchEnd", None)
+        self.frame()
 
     def key(self, *keys: str) -> None:
         """Presses keys, one after the other."""
@@ -145,6 +176,12 @@ class Hand(Worded):
         """The same as data."""
         found: dict[str, Any] = yaml.safe_load(self.text) or {}
         return found
+
+    @staticmethod
+    def metres(text: str) -> float:
+        """A length of the file."""
+        number, unit = text.split()
+        return float(number) * {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254}[unit]
 
     @property
     def selected(self) -> list[str]:

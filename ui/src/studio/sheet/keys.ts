@@ -120,7 +120,7 @@ export class Keys {
       tool.down?.(spot);
       tool.up?.(spot);
       board.redraw();
-    } else if (tool.fields?.().length || tool.anchor?.()) {
+    } else if (board.bench.cursor.value && (tool.fields?.().length || tool.anchor?.())) {
       tool.enter?.();
       board.redraw();
     } else {

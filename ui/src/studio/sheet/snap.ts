@@ -7,7 +7,7 @@ import type { Scene } from "./scene";
 
 /** How near a snap takes hold, px; directions take hold nearer, for there are many of them. */
 export const REACH = 10;
-const DIRECTION = 6, STEP = Math.PI / 12, SAME = 1e-9;
+const DIRECTION = 6, AIMED = 3, STEP = Math.PI / 12, SAME = 1e-9;
 
 /** What a place is snapped with. `anchor`: from where lengths run; `avoid`: points in hand; `keep`: a direction that is
  *  held (rad); `grid`: spacing, m, 0: none; `say`: the sentences. */
@@ -25,7 +25,14 @@ export interface Around {
 
 export function snap(free: Vec, around: Around): Snap | null {
   if (around.keep !== null && around.anchor) return held(free, around);
-  return onPoint(free, around) ?? ofLength(free, around) ?? onLink(free, around) ?? inDirection(free, around) ?? onGrid(free, around);
+  return onPoint(free, around) ?? onCorner(free, around) ?? ofLength(free, around) ?? onLink(free, around) ?? inDirection(free, around) ?? onGrid(free, around);
+}
+
+/** Who aims at a corner of the grid means it, though lengths and directions are near. */
+function onCorner(free: Vec, around: Around): Snap | null {
+  const found = onGrid(free, around);
+  if (!found || pixels(around, free, found.at) > AIMED || around.grid * around.camera.scale < 4 * AIMED) return null;
+  return { ...(inDirection(found.at, around, SAME) ?? found), at: found.at };
 }
 
 const pixels = ({ camera }: Around, a: Vec, b: Vec) => dist(a, b) * camera.scale;
@@ -72,7 +79,7 @@ function onLink(free: Vec, around: Around): Snap | null {
 }
 
 /** The direction from the anchor that is nearest: across or up, square or parallel to a link, in steps of 15°. */
-function liked(free: Vec, around: Around): { angle: number; sentence: string; name: string; kind: Snap["kind"] } | null {
+function liked(free: Vec, around: Around, reach = DIRECTION): { angle: number; sentence: string; name: string; kind: Snap["kind"] } | null {
   const { anchor, scene, avoid } = around;
   if (!anchor || dist(anchor, free) < SAME) return null;
   const angle = heading(anchor, free), length = dist(anchor, free) * around.camera.scale;
@@ -81,7 +88,7 @@ function liked(free: Vec, around: Around): { angle: number; sentence: string; na
     return turn < 1 ? length * Math.sin(turn) : Infinity;
   };
   const nearest = STEP * Math.round(angle / STEP), square = Math.abs(Math.sin(2 * nearest)) < SAME;
-  if (square && away(nearest) <= DIRECTION)
+  if (square && away(nearest) <= reach)
     return { angle: nearest, sentence: around.say(Math.abs(Math.sin(nearest)) < 0.5 ? "sheet.snap_horizontal" : "sheet.snap_vertical"), name: "", kind: "line" };
   for (const link of Object.keys(scene.links)) {
     const corners = scene.corners(link);
@@ -89,15 +96,15 @@ function liked(free: Vec, around: Around): { angle: number; sentence: string; na
     const own = heading(corners[0], corners[1]);
     for (let k = 0; k < 4; k++) {
       const way = own + (k * Math.PI) / 2;
-      if (away(way) <= DIRECTION / 2) return { angle: way, sentence: around.say(k % 2 ? "sheet.snap_square_to" : "sheet.snap_parallel_to", { name: link }), name: link, kind: "line" };
+      if (away(way) <= reach / 2) return { angle: way, sentence: around.say(k % 2 ? "sheet.snap_square_to" : "sheet.snap_parallel_to", { name: link }), name: link, kind: "line" };
     }
   }
-  if (away(nearest) > DIRECTION) return null;
+  if (away(nearest) > reach) return null;
   return { angle: nearest, sentence: `${Math.round((nearest * 180) / Math.PI)}°`.replace("-", "−"), name: "", kind: "angle" };
 }
 
-function inDirection(free: Vec, around: Around): Snap | null {
-  const { anchor } = around, found = liked(free, around);
+function inDirection(free: Vec, around: Around, reach = DIRECTION): Snap | null {
+  const { anchor } = around, found = liked(free, around, reach);
   if (!anchor || !found) return null;
   return { kind: found.kind, sentence: found.sentence, name: found.name, at: along(anchor, free, found.angle, around.grid) };
 }
