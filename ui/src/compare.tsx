@@ -8,7 +8,7 @@ import { quantity } from "./words";
 const sort = (figure: Figure) => `${figure.kind} ${figure.quantity} ${figure.signal.replace(/:.*/, "")}`;
 
 /** Figures of all machines: the same ones by their names, else the only ones of their sort. */
-function rows(sessions: Session[]): (Figure | undefined)[][] {
+export function rows(sessions: Session[]): (Figure | undefined)[][] {
   const lists = sessions.map(({ data }) => data.numbers), done = new Set<Figure>();
   const twin = (list: Figure[], figure: Figure) => {
     const same = list.find(({ id }) => id === figure.id), alike = list.filter((each) => sort(each) === sort(figure));

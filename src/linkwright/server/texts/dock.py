@@ -69,4 +69,38 @@ DOCK: dict[str, Message] = SYNTHESIS | {
     "dock.as.x": pgettext("dock", "x component"),
     "dock.as.y": pgettext("dock", "y component"),
     "dock.as.polar": pgettext("dock", "way of the vector's tip"),
+    "dock.no_dimension": _("The machine has no dimension that can be swept."),
+    "dock.sweeping": _("The machines are being solved …"),
+    "dock.swept": pgettext("dock", "Dimension"),
+    "dock.sweep_low": pgettext("dock", "from"),
+    "dock.sweep_high": pgettext("dock", "to"),
+    "dock.steps": pgettext("dock", "Steps"),
+    "dock.tolerance": pgettext("dock", "Lengths off by ±"),
+    "dock.metrics": pgettext("dock", "Metrics"),
+    "dock.vary": pgettext("dock", "What varies"),
+    "dock.goals": pgettext("dock", "Goals"),
+    "dock.demands": pgettext("dock", "Must hold"),
+    "dock.minimize": pgettext("dock", "least"),
+    "dock.maximize": pgettext("dock", "most"),
+    "dock.add_goal": pgettext("dock", "Add a goal"),
+    "dock.add_demand": pgettext("dock", "Add a demand"),
+    "dock.bound": pgettext("dock", "At least or at most"),
+    "dock.begin": pgettext("dock button", "Optimise"),
+    "dock.optimise_help": _(
+        "Choose dimensions with their ranges and a goal. The best designs appear here: point at one to "
+        "see its paths, take it to write its dimensions."
+    ),
+    "dock.designs": pgettext("dock", "Designs"),
+    "dock.take": pgettext("dock", "Take"),
+    "dock.compare_help": _(
+        "Keep a variant, change a dimension, or put another machine beside this one: what differs comes first."
+    ),
+    "dock.cannot_compare": _("{name} does not move: {reason}"),
+    "dock.alike": pgettext("dock", "The same"),
+    "dock.show_alike": _("Show what is the same ({count})"),
+    "dock.hide_alike": _("Hide what is the same"),
+    "dock.keep_variant": pgettext("dock", "Keep as a variant"),
+    "dock.keep_as_before": pgettext("dock", "Keep as before"),
+    "dock.add_machine": pgettext("dock", "Add a machine …"),
+    "dock.files": pgettext("dock", "Files"),
 }

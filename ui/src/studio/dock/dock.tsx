@@ -2,7 +2,10 @@
 import { useEffect } from "preact/hooks";
 import type { Session } from "../../session";
 import { type Bench, type DockName, DOCKS } from "../bench";
+import { Compare } from "./compare";
 import { Curves, CurvesHead } from "./curves";
+import { Optimise } from "./optimise";
+import { Sweep, SweepHead } from "./sweeping";
 import { Progress, Synthesis } from "./synthesis";
 import { beginning, TimeLine } from "./transport";
 
@@ -19,6 +22,8 @@ export function Dock({ bench }: { bench: Bench }) {
       <div class="dock-head">
         <Tabs bench={bench} />
         {open === "curves" && session && <CurvesHead bench={bench} session={session} />}
+        {open === "sweep" && session && <SweepHead bench={bench} session={session} />}
+        {open === "optimise" && <Progress bench={bench} kinds={["optimum"]} />}
         {open === "synthesis" && <Progress bench={bench} kinds={["curve", "synthesis"]} />}
       </div>
       {open && <div class="dock-panel" role="tabpanel" id="dock-panel" aria-labelledby={`dock-tab-${open}`}><Panel bench={bench} name={open} /></div>}
@@ -28,8 +33,12 @@ export function Dock({ bench }: { bench: Bench }) {
 
 function Panel({ bench, name }: { bench: Bench; name: DockName }) {
   const session = bench.session.value;
-  if (name === "curves") return session && session.data.positions.count > 1 ? <Curves key={session} bench={bench} session={session} /> : <p class="no-curves">{bench.say("dock.no_machine")}</p>;
   if (name === "synthesis") return <Synthesis bench={bench} />;
+  if (!session || session.data.positions.count < 2) return <p class="no-curves">{bench.say("dock.no_machine")}</p>;
+  if (name === "curves") return <Curves key={session} bench={bench} session={session} />;
+  if (name === "sweep") return <Sweep bench={bench} session={session} />;
+  if (name === "optimise") return <Optimise bench={bench} session={session} />;
+  if (name === "compare") return <Compare bench={bench} session={session} />;
   return null;
 }
 
