@@ -26,9 +26,9 @@ def point(draft: Draft, action: Mapping[str, Any]) -> None:
         put_point(draft, name, at, bool(action.get("fixed")))
 
 
-def new_point(draft: Draft, fixed: bool = False, stem: str = "") -> str:
-    """A name for a point: the next letter, those of the frame O with a number."""
-    taken = all_points(draft)
+def new_point(draft: Draft, fixed: bool = False, stem: str = "", known: Collection[str] = ()) -> str:
+    """A name for a point: the next letter, those of the frame O with a number; ``known``: others that are taken."""
+    taken = {*all_points(draft), *known}
     if stem or fixed:
         return fresh(stem or "O", taken)
     return next((each for each in LETTERS if each not in taken), "") or fresh("P", taken)

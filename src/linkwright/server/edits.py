@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from linkwright.core.data import Plain
 from linkwright.errors import LinkwrightError
-from linkwright.server import cams, drawn, joining, links, masses, naming, pairs, request, values
+from linkwright.server import cams, drawn, joining, links, masses, naming, pairs, pasting, request, values
 from linkwright.server.agreement import agree, unmet
 from linkwright.server.draft import Draft
 from linkwright.server.removing import remove
@@ -31,8 +31,8 @@ def edited(text: str, actions: Sequence[Mapping[str, Any]]) -> Edited:
     them ("140 mm"). Names are optional where they end in ``?``: a fresh one is made then. Every action may have
     ``places``: {point: [x, y]} of points that the text has not, or places by its lengths.
 
-    Points: ``point`` {name?, at, fixed?} · ``fix`` {point, fixed} · ``merge`` {from, into} · ``weld`` {point, on} ·
-    ``move`` {points: {name: [x, y]}, locked?: [address]}
+    Points: ``point`` {name?, at, fixed?} · ``fix`` {point, fixed} · ``merge`` {from, into, locked?: [address]} ·
+    ``weld`` {point, on}: the links at a joint, one alone with the frame · ``move`` {points: {name: [x, y]}, locked?}
     Links: ``link`` {name?, points, places?, length?, sides?}: one point makes a block, two a bar with ``length`` as
     typed or as measured, more a plate; ``sides``: typed length or null of each side of a plate, in the order of its
     points, the last side leads back · ``add_point`` {link, point?, at} · ``split`` {link, point?, at} ·
@@ -96,6 +96,7 @@ _ACTIONS: dict[str, Callable[[Draft, Mapping[str, Any]], str | None]] = {
     "add": values.add,
     "set": values.put,
     "unset": values.unset,
+    "paste": pasting.paste,
     "optimize": _optimize,
     "remove": remove,
 }
