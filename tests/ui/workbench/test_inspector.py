@@ -1,0 +1,154 @@
+"""The inspector: what is typed stands in the file as typed, what is wrong is refused at its field, findings lead to the sheet."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+from tests.ui.browser import needs_chromium
+from tests.ui.workbench.hand import Hand, hand
+
+pytestmark = needs_chromium
+
+PRESS = """\
+format: 1
+name: Press
+frame:
+  points: {O: [0 mm, 0 mm], G: [300 mm, 0 mm]}
+links:
+  crank: {points: [O, A], length: 60 mm}
+  rod: {points: [A, B], length: 200 mm}
+  ram: {points: [B], mass: 2 kg}
+joints:
+  guide: {kind: prismatic, guide: frame, through: G, direction: 0 deg, block: ram, at: B}
+assembly: {B: forward}
+driver: {turn: crank, about: O, speed: 60 rpm}
+loads:
+  pressing: {kind: force, on: ram, at: B, direction: 180 deg, magnitude: 250 N}
+"""
+
+
+class Inspecting(Hand):
+    """A hand in the inspector."""
+
+    def select(self, kind: str, name: str) -> None:
+        self.tab.evaluate("item => { bench.tab.value = 'inspect'; bench.select(item); }", {"kind": kind, "name": name})
+        self.frame()
+
+    def field(self, key: str, **values: str) -> Any:
+        """A field of the pane by the key of its label."""
+        label = self.translate(f"studio.insp.{key}", **values)
+        return self.tab.locator(".pane").get_by_label(label, exact=True).first
+
+    def put(self, key: str, text: str, **values: str) -> None:
+        """Types into a field and sets it."""
+        field = self.field(key, **values)
+        field.fill(text)
+        field.press("Enter")
+        self.tab.wait_for_timeout(50)
+        self.settle()
+
+    def choose(self, key: str, value: str) -> None:
+        self.field(key).select_option(value)
+        self.tab.wait_for_timeout(50)
+        self.settle()
+
+
+@contextmanager
+def inspecting(chromium: Any, folder: Path, text: str) -> Iterator[Inspecting]:
+    (folder / "machine.yaml").write_text(text, encoding="utf-8")
+    with hand(chromium, folder, "machine.yaml") as found:
+        found.__class__ = Inspecting
+        assert isinstance(found, Inspecting)
+        yield found
+
+
+def test_what_is_typed_stands_in_the_file_as_typed(chromium: Any, tmp_path: Path) -> None:
+    """Lengths with and without unit, arrow keys, a force with its ramp, a pin, the cycle; each is a step back."""
+    with inspecting(chromium, tmp_path, PRESS) as it:
+        it.select("link", "crank")
+        it.put("length", "100")
+        assert it.entries["links"]["crank"]["length"] == "100 mm"
+        it.put("length", "0,09 m")
+        assert it.entries["links"]["crank"]["length"] == "0.09 m"
+        it.put("length", "3 in")
+        field = it.field("length")
+        for _ in range(2):
+            field.press("ArrowUp")
+        it.tab.wait_for_function("() => desk.text.value.includes('length: 3.02 in')")
+        it.settle()
+        it.select("load", "pressing")
+        it.put("size_of", "1.2 kN")
+        it.choose("while", "guide min")
+        it.choose("over_it", "ramp")
+        load = it.entries["loads"]["pressing"]
+        assert load["phase"] == {"of": "guide", "from": "min", "to": "max"}
+        assert load["ramp"] == ["0 kN", "1.2 kN"]
+        assert "magnitude" not in load
+        it.select("point", "A")
+        it.tab.get_by_role("button", name=it.translate("studio.insp.pin"), exact=True).click()
+        it.put("pin_radius", "8")
+        it.put("friction", "0.1")
+        assert it.entries["joints"]["A"] == {"kind": "revolute", "pin_radius": "8 mm", "friction": 0.1}
+        it.select("driver", "driver")
+        it.button("studio.insp.cycle_rock").click()
+        it.tab.wait_for_function("() => desk.text.value.includes('cycle: rock')")
+        it.tab.evaluate("() => { while (desk.history.undoable) desk.history.undo(); }")
+        assert it.text == PRESS
+
+
+def test_a_wrong_value_is_refused_at_its_field(chromium: Any, tmp_path: Path) -> None:
+    """Its sentence stands there, the file stays, and Escape brings the old value back."""
+    with inspecting(chromium, tmp_path, PRESS) as it:
+        it.select("link", "crank")
+        for text in ("-5", "80 N", "abc"):
+            it.put("length", text)
+            field, fault = it.field("length"), it.tab.locator(".pane .fault")
+            fault.wait_for()
+            assert fault.inner_text() and fault.get_attribute("role") == "alert"
+            assert field.get_attribute("aria-invalid") == "true"
+            assert it.text == PRESS
+            field.press("Escape")
+            assert fault.count() == 0 and field.input_value() == "60"
+        it.put("length", "70")
+        assert it.entries["links"]["crank"]["length"] == "70 mm"
+        # A refusal is an answer of its own kind, which the browser's console tells.
+        it.errors[:] = [each for each in it.errors if "422" not in each]
+
+
+def test_a_link_gets_mass_and_inertia_from_its_section(chromium: Any, tmp_path: Path) -> None:
+    """Flat steel 20 × 5 mm, 100 mm long: m = 7850·0.02·0.005·0.1 kg, J = m(l² + b²)/12; a tube by its ring."""
+    with inspecting(chromium, tmp_path, PRESS.replace("60 mm", "100 mm")) as it:
+        it.select("link", "crank")
+        it.button("studio.insp.from_bar").click()
+        it.tab.wait_for_function("() => desk.text.value.includes('inertia')")
+        crank = it.entries["links"]["crank"]
+        assert float(crank["mass"].removesuffix(" kg")) == pytest.approx(0.0785, rel=1e-3)
+        assert float(crank["inertia"].removesuffix(" kg·m²")) == pytest.approx(6.8033e-5, rel=1e-3)
+        it.choose("section", "tube")
+        it.tab.wait_for_function("() => !desk.text.value.includes('0.0785 kg')")
+        # π/4·(20² - 16²) mm² = 113.10 mm².
+        crank = it.entries["links"]["crank"]
+        assert float(crank["mass"].removesuffix(" kg")) == pytest.approx(7850 * 113.097e-6 * 0.1, rel=1e-3)
+
+
+def test_a_finding_leads_to_its_element_and_its_line(chromium: Any, tmp_path: Path) -> None:
+    """The badge counts, the element is selected and brought into sight, the line is marked in the text."""
+    text = PRESS.replace("rod: {points: [A, B], length: 200 mm}", "rod: {points: [A, B], length: 200 mm, mass: 1 kg}")
+    with inspecting(chromium, tmp_path, text) as it:
+        tab = it.tab.get_by_role("tab", name=it.pattern("studio.insp.tab_findings"))
+        assert tab.locator(".mark").inner_text() == "1"
+        tab.click()
+        it.button("studio.insp.show").click()
+        assert it.selected == ["rod"]
+        it.button("studio.insp.line", line="7").click()
+        area = it.tab.locator(".pane textarea")
+        start, end = area.evaluate("area => [area.selectionStart, area.selectionEnd]")
+        assert text[start:end].strip().startswith("rod: {points")
+        assert it.tab.locator(".pane .gutter .warning").inner_text() == "7"
+        for key in ("ArrowLeft", "Home"):
+            it.tab.get_by_role("tab", selected=True).press(key)
+        assert it.tab.evaluate("() => bench.tab.value") == "inspect"
