@@ -150,5 +150,5 @@ def test_a_finding_leads_to_its_element_and_its_line(chromium: Any, tmp_path: Pa
         assert text[start:end].strip().startswith("rod: {points")
         assert it.tab.locator(".pane .gutter .warning").inner_text() == "7"
         for key in ("ArrowLeft", "Home"):
-            it.tab.get_by_role("tab", selected=True).press(key)
+            it.tab.locator(".inspector [role=tab][aria-selected=true]").press(key)
         assert it.tab.evaluate("() => bench.tab.value") == "inspect"
