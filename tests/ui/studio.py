@@ -37,6 +37,7 @@ REQUESTS = (
     "goals",
     "tasks",
     "synthesis",
+    "metrics",
     "candidates",
     "enough",
     "take",

@@ -64,6 +64,7 @@ class Work:
             "goals": self._goals,
             "tasks": self._tasks,
             "synthesis": self._synthesis,
+            "metrics": self._metrics,
             "candidates": lambda a: self.background.state(),
             "enough": lambda a: self.background.end(),
             "take": self._take,
@@ -159,6 +160,12 @@ class Work:
         from linkwright.server.search import goals
 
         return {"goals": goals(text(asked, "text"), language_of(asked))}
+
+    def _metrics(self, asked: Plain) -> Plain:
+        """All metrics of a text's model."""
+        from linkwright.server.metrics import metric_rows
+
+        return {"metrics": metric_rows(text(asked, "text"), language_of(asked))}
 
     def _take(self, asked: Plain) -> Plain:
         """A report, or an export, of a text: its bytes in base64."""

@@ -3,6 +3,11 @@ import type { Bench } from "../bench";
 import { table, word } from "./entries";
 import { Chips, Row, Section } from "./fields";
 
+/** A formula with its indices lowered. */
+function Formula({ text }: { text: string }) {
+  return <span class="formula">{text.split(/_(\p{L}|\d)/u).map((part, k) => (k % 2 ? <sub key={k}>{part}</sub> : part))}</span>;
+}
+
 export function Structure({ bench }: { bench: Bench }) {
   const { structure, outline, mobility } = bench.desk.solved.value, { say } = bench;
   if (!structure) return <p class="quiet">{mobility === undefined ? say("insp.no_structure") : say("mobility", { value: String(mobility) })}</p>;
@@ -12,7 +17,7 @@ export function Structure({ bench }: { bench: Bench }) {
     <>
       <p class="headline">{structure.headline}</p>
       <div class="form">
-        <Row label={say("insp.mobility")}><span class="formula">{structure.formula}</span></Row>
+        <Row label={say("insp.mobility")}><Formula text={structure.formula} /></Row>
         {structure.class && <Row label={say("insp.class")}><span class="quiet">{structure.class}</span></Row>}
         {driven.length > 0 && <Chips label={say("insp.driven")} names={driven} symbols={false} pick={pick} />}
       </div>
