@@ -118,7 +118,7 @@ export function rows(bench: Bench, session: Session): Row[] {
   const known = list.map((each): Row => {
     const figure = twin(each, data), key = keyOf(each), now = figure && (moved || !Number.isFinite(each.value ?? NaN)) ? live[figure.id] : (each.value ?? NaN), past = before.value[key] ?? (figure ? old[figure.id] : NaN);
     const usual = USUAL.has(each.metric), { unit, factor } = scale(each, Math.abs(past) || Math.abs(now));
-    return { key, group: groupOf(each), label: capital(each.label), of: named(each, data), now, before: past, unit, factor, limit: limitOf(bench, each), remark: each.remark, stale: moved && !figure, usual };
+    return { key, group: groupOf(each), label: capital(each.label), of: about(each, data), now, before: past, unit, factor, limit: limitOf(bench, each), remark: each.remark, stale: moved && !figure, usual };
   });
   return [...known, ...more(bench, session)];
 }
@@ -126,7 +126,7 @@ export function rows(bench: Bench, session: Session): Row[] {
 const capital = (text: string) => text.slice(0, 1).toUpperCase() + text.slice(1);
 
 /** What it is of; nothing where that is the machine, its frame or its only driver. */
-const named = ({ of, subject }: Found, { name, positions }: Session["data"]) =>
+const about = ({ of, subject }: Found, { name, positions }: Session["data"]) =>
   Object.values(name).includes(of) || subject === "frame" || (positions.inputs.length < 2 && subject === positions.inputs[0]?.name) ? "" : of;
 
 /** The unit in which a value of about this size (SI) reads well, and the factor to it. */
@@ -153,6 +153,14 @@ export const kindOf = (id: string) => id.split(":")[0];
 export const kindIn = (id: string, quantity: string) => (kindOf(id) === "effort" && quantity === "force" ? "effort_force" : kindOf(id));
 /** What a signal is of: the link, the point, the joint and the link of a reaction. */
 export const ownerOf = (id: string) => id.split(":").slice(1).join(":");
+/** A number of the page in words, without what it is of. */
+export function named(bench: Bench, { kind, signal: id, quantity }: Figure): string {
+  const of = kindIn(id, quantity), own = `${kind}_${of}`;
+  if (own === "least_m") return bench.say("metric.least_m", { mu: "μ" });
+  return OWN.has(own) ? bench.say(`metric.${own}`) : bench.say(`metric.as_${kind}`, { what: bench.say(`metric.of_${of}`) });
+}
+
+const OWN = new Set(["range_angle", "ratio_angle", "ratio_s", "range_s", "largest_effort", "rms_effort", "largest_effort_force", "rms_effort_force", "largest_r", "largest_shake"]);
 /** Ways to make a number of a signal. */
 export const ways = (of: Signal): Figure["kind"][] => (of.form === "angle" ? ["range"] : AS);
 
