@@ -1,4 +1,4 @@
-"""The inspector: what is typed stands in the file as typed, what is wrong is refused at its field, findings lead to the sheet."""
+"""The inspector: values stand in the file as typed, wrong ones are refused at their field, findings lead to the sheet."""
 
 from __future__ import annotations
 
@@ -35,7 +35,8 @@ class Inspecting(Hand):
     """A hand in the inspector."""
 
     def select(self, kind: str, name: str) -> None:
-        self.tab.evaluate("item => { bench.tab.value = 'inspect'; bench.select(item); }", {"kind": kind, "name": name})
+        script = "item => { bench.tab.value = 'inspect'; bench.select(item); }"
+        self.tab.evaluate(script, {"kind": kind, "name": name})
         self.frame()
 
     def field(self, key: str, **values: str) -> Any:
