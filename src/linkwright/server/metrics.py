@@ -16,8 +16,8 @@ from linkwright.files.write import Document
 def metric_rows(text: str, language: str) -> list[Plain]:
     """All metrics that apply to a text's model, SI; the first of those that come several times over the cycle.
 
-    ``factor``: from SI to ``unit``; ``limit``: the recommended value; ``better``: in which direction designs improve; ``value``: None where it is
-    infinite.
+    ``factor``: from SI to ``unit``; ``limit``: the recommended value; ``better``: in which direction designs
+    improve; ``value``: None where it is infinite.
     """
     mechanism = Document(text, "model", read_text).mechanism
     found: dict[tuple[str, str], Plain] = {}

@@ -1,4 +1,4 @@
-"""The inspector: values stand in the file as typed, wrong ones are refused at their field, findings lead to the sheet."""
+"""The inspector: values stand in the file as typed, wrong ones are refused, findings lead to the sheet."""
 
 from __future__ import annotations
 
