@@ -498,7 +498,7 @@ export class Desk {
 
   private async carriedOut(actions: Action[]): Promise<Edited | null> {
     for (;;) {
-      const from = this.text.value, edited = await this.ask<Edited>("edit", { text: from, actions });
+      const from = this.text.value, edited = await this.ask<Edited>("edit", { text: from, actions: withPlaces(actions, this.solved.value.picture) });
       if (!edited) return null;
       if (from !== this.text.value) continue;
       this.change(edited.text);
@@ -540,6 +540,12 @@ export const named = (asked: string) => (/\.(ya?ml|json)$/i.test(asked.trim()) ?
 
 /** A text with the ends of lines that a text field has; the server writes those of the file. */
 const plain = (text: string) => text.replaceAll("\r\n", "\n");
+
+/** Actions with the places of points that the text has by its lengths alone. */
+function withPlaces(actions: Action[], picture: Picture | undefined): Action[] {
+  const { placed = [], points = {} } = picture ?? {}, places = Object.fromEntries(placed.map((name) => [name, points[name]]));
+  return placed.length ? actions.map((each) => Object.assign({}, each, { places: Object.assign({}, places, each.places) })) : actions;
+}
 
 /** Points that lengths have placed stay where they were while a text is written that no machine comes of. */
 function hold(picture: Picture, { placed = [], points }: Picture): void {

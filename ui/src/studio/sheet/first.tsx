@@ -24,9 +24,17 @@ export function First({ board }: { board: Board }) {
   useEffect(() => {
     if (!shown) return;
     if (bench.tool.peek() === "move") bench.tool.value = "pivot";
-    const begin = () => (begun.value = new Set([...begun.value, name.value]));
+    const begin = () => (begun.value = new Set([...begun.value, name.value])), first = bench.tool.peek();
+    // A tool that is taken says that drawing begins, be it by its key or on the rail.
+    const key = (event: KeyboardEvent) => /^[a-z]$/i.test(event.key) && !event.ctrlKey && !event.metaKey && begin();
+    const taken = bench.tool.subscribe((tool) => tool !== first && begin());
     board.host.addEventListener("pointerdown", begin);
-    return () => board.host.removeEventListener("pointerdown", begin);
+    window.addEventListener("keydown", key);
+    return () => {
+      taken();
+      board.host.removeEventListener("pointerdown", begin);
+      window.removeEventListener("keydown", key);
+    };
   }, [shown]);
   if (!shown) return null;
   const say = (key: string, values?: Record<string, string>) => bench.say(key, values);
