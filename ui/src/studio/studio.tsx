@@ -48,13 +48,15 @@ function Room({ bench }: { bench: Bench }) {
     <><div class={`room ${layout.value}${slim ? " slim" : ""}`} style={style}>
       <TopBar bench={bench} />
       <Strips bench={bench} />
-      <Rail bench={bench} />
+      <nav class="edges" aria-label={bench.say("tools")}>
+        <Rail bench={bench} />
+        <Divider of="inspector" label={bench.say("divider.inspector")} value={inspector} least={INSPECTOR.least} most={Math.floor(INSPECTOR.share * wide)} set={(size) => bench.set({ inspector: size })} />
+        {bench.dock.value && <Divider of="dock" label={bench.say("divider.dock")} value={dock} least={DOCK.least} most={Math.floor(DOCK.share * tall)} set={(size) => bench.set({ dock: size })} />}
+      </nav>
       <Stage bench={bench} />
       <Inspector bench={bench} />
       <Dock bench={bench} />
       <Status bench={bench} />
-      <Divider of="inspector" label={bench.say("divider.inspector")} value={inspector} least={INSPECTOR.least} most={Math.floor(INSPECTOR.share * wide)} set={(size) => bench.set({ inspector: size })} />
-      {bench.dock.value && <Divider of="dock" label={bench.say("divider.dock")} value={dock} least={DOCK.least} most={Math.floor(DOCK.share * tall)} set={(size) => bench.set({ dock: size })} />}
     </div><Over bench={bench} /></>
   );
 }

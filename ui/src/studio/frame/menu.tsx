@@ -102,7 +102,7 @@ export function MenuHost() {
     choice.act();
   };
   return (
-    <div key={String(open.anchor.x + open.anchor.y)} class="menu" role="menu" popover="manual" ref={host} aria-label={open.label} onKeyDown={walk}>
+    <nav class="edges" aria-label={open.label}><div key={String(open.anchor.x + open.anchor.y)} class="menu" role="menu" popover="manual" ref={host} aria-label={open.label} onKeyDown={walk}>
       {open.choices.map((choice, k) => choice === null ? <hr key={k} /> : (
         <button
           key={k} role={choice.checked === undefined ? "menuitem" : "menuitemradio"} aria-checked={choice.checked} tabIndex={-1}
@@ -113,7 +113,7 @@ export function MenuHost() {
           {choice.keys && <span class="menu-keys">{choice.keys}</span>}
         </button>
       ))}
-    </div>
+    </div></nav>
   );
 }
 

@@ -51,10 +51,10 @@ function PhoneBar({ bench }: { bench: Bench }) {
 function Strip({ bench }: { bench: Bench }) {
   const { tool } = bench, tools = STRIP.includes(tool.value) ? STRIP : [...STRIP.slice(0, -1), tool.value], count = String(TOOLS.length);
   return (
-    <div class="tool-strip" role="toolbar" aria-label={bench.say("tools")}>
+    <nav class="tool-strip" aria-label={bench.say("tools")}>
       {tools.map((name) => <ToolButton key={name} bench={bench} name={name} tabIndex={0} size={22} />)}
       <button class="tool" onClick={() => (bench.dialog.value = { kind: "tools" })}><Icon name="plus" size={22} /><span class="tool-name">{bench.say("tools.all", { count })}</span></button>
-    </div>
+    </nav>
   );
 }
 
@@ -102,7 +102,7 @@ function Drawer({ bench }: { bench: Bench }) {
       <div class="drawer-tabs" role="tablist" aria-label={bench.say("drawer")} onKeyDown={walk}>
         {PARTS.map((each) => (
           <button
-            key={each} id={`drawer-${each}`} role="tab" aria-selected={each === part && !shut} aria-controls={each === part && !shut ? "drawer-pane" : undefined}
+            key={each} id={`drawer-${each}`} role="tab" aria-selected={each === part && !shut} aria-controls={each === part && !shut ? (isTab(each) ? "drawer-pane" : "dock-panel") : undefined}
             tabIndex={each === part ? 0 : -1} onClick={() => choose(each)}
           >{bench.say(isTab(each) ? `insp.tab_${each}` : `dock.${each}`)}</button>
         ))}

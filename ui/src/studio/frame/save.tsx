@@ -1,5 +1,5 @@
 // The dialogs that save under a name, and that open a shared link.
-import { useRef, useState } from "preact/hooks";
+import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import { named } from "../../desk";
 import { modelOf } from "../../share";
 import type { Bench } from "../bench";
@@ -9,6 +9,10 @@ import { titleOf } from "./topbar";
 export function SaveDialog({ bench }: { bench: Bench }) {
   const { desk } = bench, field = useRef<HTMLInputElement>(null), [name, setName] = useState(titleOf(bench).replace(/\.ya?ml$/, ""));
   const [problem, setProblem] = useState(""), there = desk.onDisk.value, taken = there !== null && there.name === named(name);
+  // A name that was tried, and taken, is forgotten with the dialog.
+  useLayoutEffect(() => () => {
+    if (desk.onDisk.value?.name !== desk.name.value) desk.onDisk.value = null;
+  }, []);
   const done = (saved: boolean) => {
     if (saved) bench.dialog.value = null;
     else {

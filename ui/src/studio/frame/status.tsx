@@ -49,8 +49,9 @@ function Where({ bench }: { bench: Bench }) {
   const host = useRef<HTMLSpanElement>(null);
   useEffect(() => effect(() => {
     const at = bench.cursor.value, [factor, places] = UNITS[bench.settings.value.unit], shown = (x: number) => (x / factor).toFixed(places).replace("-", "−");
-    host.current!.hidden = !at;
-    if (at) host.current!.querySelectorAll("b").forEach((each, k) => (each.textContent = shown(at[k])));
+    if (!host.current) return; // the layout is being changed
+    host.current.hidden = !at;
+    if (at) host.current.querySelectorAll("b").forEach((each, k) => (each.textContent = shown(at[k])));
   }), []);
   return <span class="where" ref={host} hidden><i class="sym">x</i> <b /> <i class="sym">y</i> <b /></span>;
 }
@@ -85,7 +86,7 @@ function Spacing({ bench }: { bench: Bench }) {
   const host = useRef<HTMLSpanElement>(null);
   useEffect(() => effect(() => {
     const { grid, unit } = bench.settings.value, [factor] = UNITS[unit];
-    host.current!.textContent = `${plain(spacing(bench.scale.value, grid) / factor)} ${unit}`;
+    if (host.current) host.current.textContent = `${plain(spacing(bench.scale.value, grid) / factor)} ${unit}`;
   }), []);
   return <span ref={host} />;
 }
@@ -95,7 +96,7 @@ function Percent({ scale }: { scale: Signal<number> }) {
   const host = useRef<HTMLSpanElement>(null);
   useEffect(() => effect(() => {
     const share = (100 * scale.value) / FULL;
-    host.current!.textContent = `${share < 10 ? Number(share.toPrecision(2)) : Math.round(share)} %`;
+    if (host.current) host.current.textContent = `${share < 10 ? Number(share.toPrecision(2)) : Math.round(share)} %`;
   }), []);
   return <span ref={host} />;
 }

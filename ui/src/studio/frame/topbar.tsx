@@ -1,5 +1,5 @@
 // The bar at the top: file, name and draft, undo, commands, language, theme, export, share.
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { Bench } from "../bench";
 import { exportCommands, fileCommands } from "./commands";
 import { Square } from "./controls";
@@ -68,20 +68,22 @@ export const titleOf = ({ desk }: Bench) => (desk.onFile.value ? desk.name.value
 /** The name, edited in its place. */
 export function Name({ bench }: { bench: Bench }) {
   const title = titleOf(bench), { renaming, desk } = bench, field = useRef<HTMLInputElement>(null), [problem, setProblem] = useState("");
-  useEffect(() => {
-    if (renaming.value) field.current?.select();
+  useLayoutEffect(() => {
+    if (!renaming.value) return;
+    field.current?.focus();
+    field.current?.select();
   }, [renaming.value]);
   const end = () => {
     renaming.value = false;
     setProblem("");
   };
   const rename = async () => {
-    const wanted = field.current!.value.trim();
+    const wanted = field.current?.value.trim();
     if (!wanted || wanted === title || (await desk.rename(wanted))) return end();
     setProblem(bench.say("rename.taken", { name: wanted }));
-    field.current!.focus();
+    field.current?.focus();
   };
-  if (!renaming.value) return <button class="ghost file-name" data-tip={bench.say("file.rename")} onClick={() => (renaming.value = true)}><b>{title}</b></button>;
+  if (!renaming.value) return <h1><button class="ghost file-name" data-tip={bench.say("file.rename")} onClick={() => (renaming.value = true)}><b>{title}</b></button></h1>;
   return (
     <span class="file-name">
       <input
