@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import base64
 import http.client
+import io
 import json
 import math
 import os
 import signal
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 from urllib.parse import parse_qs, urlsplit
 
@@ -95,6 +97,8 @@ def test_reports_and_exports_are_handed_out(tmp_path: Path) -> None:
             status, found = asked(studio, "take", {"text": FOURBAR, "ending": ending})
             assert status == 200
             assert base64.b64decode(found["content"]).startswith(head)
+        status, found = asked(studio, "take", {"text": FOURBAR, "ending": ".sheet.pdf"})
+        assert base64.b64decode(found["content"]).startswith(b"%PDF")
         for ending in ("/../../x", ".py", ""):
             assert asked(studio, "take", {"text": FOURBAR, "ending": ending})[0] == 422
         for points in ([[0, 0]], [[0, 0]] * 9, "no", [[0, float("nan")]] * 9, [[0, 1]] * 99999):
@@ -182,3 +186,44 @@ def test_a_report_is_handed_out(tmp_path: Path) -> None:
         status, found = asked(studio, "take", {"text": FOURBAR, "ending": ".report.html"})
         assert status == 200
         assert base64.b64decode(found["content"]).lower().startswith(b"<!doctype html>")
+
+
+DRAWN = (
+    {"do": "point", "name": "O1", "at": [0.0, 0.0], "fixed": True},
+    {"do": "point", "name": "O2", "at": [0.2, 0.0], "fixed": True},
+    {"do": "link", "points": ["O1", "A"], "length": "50", "places": {"A": [0.03, 0.04]}},
+    {"do": "link", "points": ["A", "B"], "length": "150", "places": {"B": [0.16, 0.12]}},
+    {"do": "link", "points": ["B", "O2"], "length": "125"},
+    {"do": "driver", "link": "link1"},
+)
+
+
+def test_a_drawing_gives_exercises_with_their_key(tmp_path: Path) -> None:
+    """The key's angle of the rocker is that of the triangle O2 A B by hand, for the lengths of each variant."""
+    with serving(tmp_path) as studio:
+        text = asked(studio, "edit", {"text": "format: 1\nname: drawn\n", "actions": DRAWN})[1]["text"]
+        wish = {
+            "text": text,
+            "count": 3,
+            "vary": ["crank.length", "rocker.length"],
+            "ask": ["rocker.angle"],
+            "at": "70 deg",
+        }
+        status, found = asked(studio, "take", {**wish, "ending": ".exercise.zip"})
+        assert status == 200, found
+        with zipfile.ZipFile(io.BytesIO(base64.b64decode(found["content"]))) as archive:
+            assert {"sheets.pdf", "key.json", "moodle.xml"} <= {*archive.namelist()}
+            assert archive.read("sheets.pdf").startswith(b"%PDF")
+            key = json.loads(archive.read("key.json"))
+        assert len(key["variants"]) == 3
+        for each in key["variants"]:
+            crank, rocker = (each["dimensions"][f"{name}.length"] for name in ("crank", "rocker"))
+            a = crank * np.exp(1j * math.radians(70)) - 0.2
+            bend = math.acos((rocker**2 + abs(a) ** 2 - 0.15**2) / (2 * rocker * abs(a)))
+            b = a / abs(a) * rocker * np.exp(-1j * bend)
+            wanted = math.degrees(np.angle(-b))  # from B, the first point of the rocker, to O2
+            assert each["answers"] == [pytest.approx(wanted, abs=1e-6)]
+        assert asked(studio, "take", {**wish, "count": 3000, "ending": ".exercise.pdf"})[0] == 422
+        assert asked(studio, "take", {**wish, "vary": ["x.length"], "ending": ".exercise.pdf"})[0] == 422
+        status, found = asked(studio, "take", {**wish, "count": 1, "ending": ".exercise.pdf"})
+        assert base64.b64decode(found["content"]).startswith(b"%PDF")

@@ -465,15 +465,15 @@ export class Desk {
     await this.ask("enough");
   }
 
-  /** A report or an export of the machine, as a download. */
-  async take(ending: string): Promise<void> {
+  /** A report or an export of the machine, as a download; `asked`: what an exercise is about. */
+  async take(ending: string, asked: Record<string, unknown> = {}): Promise<void> {
     this.making.value++;
-    await this.taken(ending).finally(() => this.making.value--);
+    await this.taken(ending, asked).finally(() => this.making.value--);
   }
 
-  private async taken(ending: string): Promise<void> {
+  private async taken(ending: string, asked: Record<string, unknown>): Promise<void> {
     this.page.note.value = this.say("making");
-    const found = await this.ask<{ content: string }>("take", { text: this.text.value, name: this.file.name, ending });
+    const found = await this.ask<{ content: string }>("take", { ...asked, text: this.text.value, name: this.file.name, ending });
     if (!found) return;
     this.page.note.value = "";
     const stem = this.name.value.replace(/\.\w+$/, "") || "machine";

@@ -7,8 +7,6 @@ import threading
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import replace
-from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from linkwright.core.data import Plain
 from linkwright.errors import Finding, LinkwrightError, ModelError, with_remedy
@@ -22,6 +20,7 @@ from linkwright.server.draft import Draft
 from linkwright.server.edits import edited
 from linkwright.server.files import Files
 from linkwright.server.folder import listing
+from linkwright.server.handing_out import handed_out
 from linkwright.server.moved import gap_data, moved
 from linkwright.server.outline import outline
 from linkwright.server.picture import completed
@@ -31,8 +30,6 @@ from linkwright.server.unfinished import in_earnest, unfinished
 from linkwright.words import LANGUAGES, _, pgettext
 from linkwright.words.message import in_language
 
-#: What the studio hands out, by the ending of the file.
-TAKEN = (".report.pdf", ".report.html", ".html", ".xlsx", ".csv", ".json", ".svg", ".pdf", ".png", ".dxf")
 NEW = "format: 1\nname: {name}\n"
 
 
@@ -168,27 +165,10 @@ class Work:
         return {"metrics": metric_rows(text(asked, "text"), language_of(asked))}
 
     def _take(self, asked: Plain) -> Plain:
-        """A report, or an export, of a text: its bytes in base64."""
-        model, ending, language = text(asked, "text"), text(asked, "ending"), language_of(asked)
-        if ending not in TAKEN:
-            raise LinkwrightError(
-                _("the studio hands out no file {ending!r}", code="studio.no_ending", ending=ending)
-            )
-        document = Document(model, "model", read_text)
-        with TemporaryDirectory() as folder:
-            path = Path(folder) / f"machine{ending.removeprefix('.report')}"
-            if ending.startswith(".report"):
-                from linkwright.reports.report import report
-
-                folder_of_file = self._folder(text(asked, "name", ""))
-                report(document.mechanism, language=language, folder=folder_of_file).save(path)
-            else:
-                from linkwright.exporters.export import export
-
-                more: Plain = {"text": model} if ending == ".html" else {}
-                export(document.mechanism, path, language=language, **more)
-            content = path.read_bytes()
-        return {"content": base64.b64encode(content).decode()}
+        """A report, an export, an exercise of a text: its bytes in base64."""
+        folder = self._folder(text(asked, "name", ""))
+        found = handed_out(text(asked, "text"), text(asked, "ending"), language_of(asked), folder, asked)
+        return {"content": base64.b64encode(found).decode()}
 
 
 def drawing_stem(language: str) -> str:
