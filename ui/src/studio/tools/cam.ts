@@ -2,7 +2,7 @@
 import type { Vec } from "../../shapes";
 import { pivoted } from "./gears";
 import { distance, heading, pivotOf, pointAt, polar } from "./hand";
-import { joint, line, taken } from "./marks";
+import { circle, joint, line, taken } from "./marks";
 import { picking, type Hand, type Step } from "./picking";
 import { blocks } from "./rack";
 import type { Spot } from "./tool";
@@ -58,9 +58,9 @@ export const makeCam = picking({
     if (!point) return;
     joint(over, screen(point.at));
     const base = distance(screen(cam.at), screen(point.at)), size = spot ? lift(hand, spot) : 0, to = polar(point.at, size, heading(cam.at, point.at));
-    over.circle(screen(cam.at), base, "ghost");
+    circle(over, screen(cam.at), base, "ghost");
     if (!size) return;
-    over.circle(screen(cam.at), base + sheet.camera.scale * size, "soft dashed");
+    circle(over, screen(cam.at), base + sheet.camera.scale * size, "soft dashed");
     over.path(line(screen(point.at), screen(to)), "ghost thick");
     over.dimension(screen(point.at), screen(to), reads(size, "length", sheet.bench.settings.value.unit), "hand strong", OFF);
   },

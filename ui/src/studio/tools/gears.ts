@@ -1,7 +1,7 @@
 // Gears: click two links with pivots; the pointer on the line of their pivots sets the ratio, beyond a pivot one lies inside.
 import type { Vec } from "../../shapes";
 import { distance, linkAt, pivotOf } from "./hand";
-import { line, taken } from "./marks";
+import { circle, line, taken } from "./marks";
 import { picking, type Hand, type Step } from "./picking";
 import type { Spot } from "./tool";
 
@@ -75,7 +75,7 @@ export const makeGears = picking({
     const found = asked(hand, spot), [a, b] = picked.map(({ at }) => sheet.camera.screen(at)), sizes = radii(found, distance(a, b));
     over.path(line(a, b), "soft dashed");
     [a, b].forEach((centre, k) => {
-      if (Number.isFinite(sizes[k])) over.circle(centre, sizes[k], "ghost");
+      if (Number.isFinite(sizes[k])) circle(over, centre, sizes[k], "ghost");
       over.text([centre[0], centre[1] - 14], String(found.teeth[k]), "hand strong");
     });
   },

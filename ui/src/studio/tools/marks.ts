@@ -35,6 +35,11 @@ export function arc(over: Overlay, at: Vec, angle: number): void {
   over.text([u, v + 4], reads(bent, "angle"), "hand strong start");
 }
 
+/** A circle that may be dashed. */
+export function circle(over: Overlay, [x, y]: Vec, r: number, style: string): void {
+  over.path(`M${(x - r).toFixed(1)} ${y.toFixed(1)}a${r} ${r} 0 1 0 ${2 * r} 0a${r} ${r} 0 1 0 ${-2 * r} 0Z`, style);
+}
+
 /** A joint that would be made, or that is in hand. */
 export function joint(over: Overlay, at: Vec, style = "hand pin"): void {
   over.circle(at, PIN, style);
