@@ -41,10 +41,11 @@ class Desk {
     const desk = { solved: { value: { outline: { entries: { joints }, lines: {} } } } };
     this.scene = new Scene(structuredClone(picture), null, 0);
     this.camera.scale = 2000;
+    let made: Item[] = [];
     const bench = {
-      desk, settings: { value: { unit: "mm" } }, locked: { value: new Set(["coupler.length"]) }, say: (key: string) => key, select: (...items: Item[]) => (this.selection = items),
+      desk, selectMade: (item: Item) => (this.selection = made = [item]), settings: { value: { unit: "mm" } }, locked: { value: new Set(["coupler.length"]) }, say: (key: string) => key, select: (...items: Item[]) => (this.selection = items),
     };
-    Object.defineProperty(bench, "one", { get: () => (this.selection.length === 1 ? this.selection[0] : null) });
+    Object.defineProperty(bench, "chosen", { get: () => (this.selection.length === 1 && this.selection !== made ? this.selection[0] : null) });
     const sheet = {
       bench, camera: this.camera, scene: this.scene, redraw() {}, take() {}, refuse: (key: string) => this.said.push(key),
       act: (actions: Action[]) => {

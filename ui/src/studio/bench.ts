@@ -143,6 +143,18 @@ export class Bench {
     this.selection.value = items;
   }
 
+  /** Selects what a tool has made: nobody has asked for it yet. */
+  selectMade(item: Item): void {
+    this.selection.value = this.made = [item];
+  }
+
+  private made: Item[] = [];
+
+  /** The only selected element, where a person has selected it. */
+  get chosen(): Item | null {
+    return this.selection.value === this.made ? null : this.one;
+  }
+
   /** The only selected element. */
   get one(): Item | null {
     const { value } = this.selection;

@@ -28,7 +28,7 @@ export function LinkPanel({ bench, item, entries }: PanelProps) {
         <Angle bench={bench} name={name} points={own} link={link} />
         <Swing bench={bench} name={name} />
         <Chips label={say("insp.points")} names={all} pick={(point) => bench.select({ kind: "point", name: point })}>
-          <button type="button" class="add" aria-label={say("insp.add_point")} title={say("insp.add_point")} onClick={() => (bench.tool.value = "plate")}><Icon name="plus" size={13} /></button>
+          <button type="button" class="add" aria-label={say("insp.add_point")} title={say("insp.add_point")} onClick={() => (bench.select(item), (bench.tool.value = "plate"))}><Icon name="plus" size={13} /></button>
         </Chips>
       </div>
       <Mass bench={bench} name={name} link={link} points={own} />

@@ -121,7 +121,7 @@ class LinkTool implements Tool {
     this.coming.push(...names);
     const made = await this.sheet.act(actions);
     this.coming = this.coming.filter((each) => !names.includes(each));
-    if (made?.length) this.sheet.bench.select({ kind: "link", name: made[made.length - 1] });
+    if (made?.length) this.sheet.bench.selectMade({ kind: "link", name: made[made.length - 1] });
     // What the drawing did not admit is not there to go on from.
     else if (!made && this.from?.name === to.name) this.from = from;
     this.sheet.redraw();

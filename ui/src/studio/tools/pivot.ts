@@ -65,7 +65,7 @@ class PivotTool implements Tool {
 
   private async make(name: string, actions: Parameters<Sheet["act"]>[0]): Promise<void> {
     this.coming.add(name);
-    if (await this.sheet.act(actions)) this.sheet.bench.select({ kind: "point", name });
+    if (await this.sheet.act(actions)) this.sheet.bench.selectMade({ kind: "point", name });
     this.coming.delete(name);
   }
 

@@ -19,8 +19,6 @@ class PlateTool implements Tool {
   private corners: Corner[] = [];
   /** Length typed for the side from the last corner back to the first. */
   private back: string | null = null;
-  /** Plates that were made last: they are selected, but get no points. */
-  private made = "";
   private coming: string[] = [];
 
   constructor(private readonly sheet: Sheet) {
@@ -58,10 +56,10 @@ class PlateTool implements Tool {
     return back;
   }
 
-  /** The selected link that gets further points; null: a new plate is drawn. */
+  /** The link that gets further points, selected by hand; null: a new plate is drawn. */
   private get adding(): string | null {
-    const { one } = this.sheet.bench;
-    return !this.corners.length && one?.kind === "link" && one.name !== this.made && one.name in this.sheet.scene.links ? one.name : null;
+    const { chosen } = this.sheet.bench;
+    return !this.corners.length && chosen?.kind === "link" && chosen.name in this.sheet.scene.links ? chosen.name : null;
   }
 
   anchor(): Vec | null {
@@ -112,7 +110,6 @@ class PlateTool implements Tool {
     const { scene, camera } = this.sheet, { adding } = this;
     if (adding) return this.add(adding, spot);
     if (!this.corners.length) {
-      this.made = "";
       this.corners = [{ ...endAt(spot, scene, this.coming), side: null }];
       return this.sheet.redraw();
     }
@@ -146,10 +143,8 @@ class PlateTool implements Tool {
     this.coming = corners.map(({ name }) => name);
     const made = await this.sheet.act(actions);
     this.coming = [];
-    if (made?.length) {
-      this.made = made[made.length - 1];
-      this.sheet.bench.select({ kind: "link", name: this.made });
-    } else if (!made && !this.corners.length) this.corners = corners;
+    if (made?.length) this.sheet.bench.selectMade({ kind: "link", name: made[made.length - 1] });
+    else if (!made && !this.corners.length) this.corners = corners;
     this.sheet.redraw();
   }
 
@@ -182,7 +177,7 @@ class PlateTool implements Tool {
   leave(): void {
     this.values.clear();
     this.clicks.drop();
-    [this.corners, this.back, this.made] = [[], null, ""];
+    [this.corners, this.back] = [[], null];
   }
 }
 
