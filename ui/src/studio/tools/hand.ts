@@ -7,6 +7,8 @@ import { typed, type Typed } from "./typed";
 
 // A press that goes farther than this is a drag, and a click within this of a joint is on it, px.
 const STILL = 5, STILL_TOUCH = 12, ON = 10;
+// Points that are nearer to each other are seen as one, m.
+const TOGETHER = 1e-6;
 // O is for pivots.
 const LETTERS = "ABCDEFGHIJKLMNPQRSTUVWXYZ";
 
@@ -120,7 +122,10 @@ export interface End {
 /** What a click means for a tool that draws from point to point; `taken`: names in hand. */
 export function endAt(spot: Spot, scene: Scene, taken: Iterable<string> = []): End {
   const { snap } = spot;
-  if (snap?.kind === "point" && scene.at(snap.name)) return { name: snap.name, at: scene.at(snap.name)!, made: false, on: null };
+  if (snap?.kind === "point" && scene.at(snap.name)) {
+    const name = uppermost(scene, snap.name);
+    return { name, at: scene.at(name)!, made: false, on: null };
+  }
   return { name: freshPoint(scene, false, taken), at: spot.place, made: true, on: snap?.kind === "link" && snap.name in scene.links ? snap.name : null };
 }
 
@@ -129,8 +134,15 @@ export const dropped = ({ name, at, on }: End) => (on ? [{ do: "add_point", link
 
 /** The point under the pointer, whether it snaps or not. */
 export function pointAt(spot: Spot, scene: Scene): string | null {
-  if (spot.snap?.kind === "point" && scene.points.has(spot.snap.name)) return spot.snap.name;
-  return spot.under.find(({ kind, name }) => kind === "point" && scene.points.has(name))?.name ?? null;
+  const snapped = spot.snap?.kind === "point" && scene.points.has(spot.snap.name) ? spot.snap.name : null;
+  const found = snapped ?? spot.under.find(({ kind, name }) => kind === "point" && scene.points.has(name))?.name;
+  return found ? uppermost(scene, found) : null;
+}
+
+/** Of points at one place the one that is seen: that of a block, not the one of the frame by which its guide goes. */
+function uppermost(scene: Scene, name: string): string {
+  const at = scene.at(name)!, here = [...scene.points.values()].filter((each) => distance(each.at, at) < TOGETHER);
+  return (here.find((each) => scene.guided.includes(each.name)) ?? here.find((each) => each.links.length) ?? here[0]).name;
 }
 
 /** The link under the pointer, one that `fits` before others; a point stands for its links, the one with fewest points first. */
