@@ -55,7 +55,7 @@ export function written(task: Task, given: Given): Record<string, unknown> {
       // A pose whose angle is open is a place alone.
       const rows = typed.filter(complete).map((row) => row.filter((each) => each !== null));
       found[key] = form === "point" ? rows[0] : rows;
-    } else if (form === "angles" || form === "lengths") found[key] = typed.split(/[;\s]+|,(?=\s)|,(?!\d+(?:[;\s]|$))/).filter(Boolean).map((each) => quantity(each, form));
+    } else if (form === "angles" || form === "lengths") found[key] = typed.split(/[;,\s]+/).filter(Boolean).map((each) => quantity(each, form));
     else if (form === "word") {
       if (typed !== usual) found[key] = typed;
     } else found[key] = quantity(typed, form);
