@@ -5,6 +5,7 @@ import type { Vec } from "../../shapes";
 import type { ToolName } from "../bench";
 import { fileCommands } from "../frame/commands";
 import { Icon } from "../frame/icons";
+import { writes } from "../frame/keys";
 import { KEYS } from "../tools/tool";
 import { GALLERY, MACHINES } from "./machines";
 import type { Board } from "./sheet";
@@ -24,16 +25,19 @@ export function First({ board }: { board: Board }) {
   useEffect(() => {
     if (!shown) return;
     if (bench.tool.peek() === "move") bench.tool.value = "pivot";
-    const begin = () => (begun.value = new Set([...begun.value, name.value])), first = bench.tool.peek();
-    // A tool that is taken says that drawing begins, be it by its key or on the rail.
-    const key = (event: KeyboardEvent) => /^[a-z]$/i.test(event.key) && !event.ctrlKey && !event.metaKey && begin();
-    const taken = bench.tool.subscribe((tool) => tool !== first && begin());
+    const begin = () => (begun.value = new Set([...begun.value, name.value]));
+    // Who takes a tool, on the rail or by its key, begins as well.
+    const pressed = ({ target }: Event) => target instanceof Element && target.closest("button[data-tool]") && begin();
+    const typed = ({ key, target, ctrlKey, metaKey, altKey }: KeyboardEvent) => {
+      if (!ctrlKey && !metaKey && !altKey && !writes(target) && Object.values(KEYS).includes(key.toUpperCase())) begin();
+    };
     board.host.addEventListener("pointerdown", begin);
-    window.addEventListener("keydown", key);
+    document.addEventListener("click", pressed);
+    document.addEventListener("keydown", typed);
     return () => {
-      taken();
       board.host.removeEventListener("pointerdown", begin);
-      window.removeEventListener("keydown", key);
+      document.removeEventListener("click", pressed);
+      document.removeEventListener("keydown", typed);
     };
   }, [shown]);
   if (!shown) return null;

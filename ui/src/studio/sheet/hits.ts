@@ -11,6 +11,8 @@ import type { Scene } from "./scene";
 export const NEAR = 10, FINGER = 22;
 // A block that slides reaches this far from its point, px.
 const BLOCK: Vec = [15, 9];
+// The arrow of what is driven is a part of a circle about its pivot between these radii, px.
+const DRIVER: Vec = [19, 30];
 
 /** Where a dimension's text stands on the screen, by the address of the dimension. */
 export type Marks = Map<string, Vec>;
@@ -28,6 +30,10 @@ export function under(screen: Vec, scene: Scene, camera: Camera, near: number, l
   for (const { name, at } of scene.pairs) {
     const place = at && camera.screen(at);
     if (place && Math.abs(screen[0] - place[0]) <= BLOCK[0] && Math.abs(screen[1] - place[1]) <= BLOCK[0]) add(4, dist(screen, place), { kind: "pair", name }, Infinity);
+  }
+  for (const { name, at } of scene.drives) {
+    const far = at ? dist(screen, camera.screen(at)) : Infinity;
+    if (far > DRIVER[0] && far < DRIVER[1]) add(6, 0, { kind: "driver", name });
   }
   for (const name of Object.keys(scene.links)) add(5, linkDistance(screen, scene, camera, name), { kind: "link", name });
   return found.sort((a, b) => a.rank - b.rank || a.far - b.far).map(({ item }) => item);

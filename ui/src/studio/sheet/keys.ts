@@ -36,6 +36,7 @@ export class Keys {
     const { board } = this, { key } = event, onSheet = document.activeElement === board.host || document.activeElement === document.body;
     if (event.ctrlKey || event.metaKey) return this.command(key.toLowerCase());
     if (key === "Escape") return this.escape();
+    if (key === "Tab" && onSheet && !event.shiftKey) return this.hand.begin();
     if (key === " ") return onSheet && this.space(event.repeat);
     if (key in WAYS) return onSheet && this.arrow(WAYS[key], event);
     if (key === "Enter") return onSheet && this.enter(event);

@@ -40,6 +40,8 @@ function mark({ scene, camera }: Board, { kind, name }: Item, below: Pencil, abo
         if (far(a, b) > 2 * PIN) above.path(line([away(a, u, PIN), away(b, u, -PIN)]), "selected");
       }
   }
+  const driven = kind === "driver" ? scene.drives.find((each) => each.name === name)?.at : null;
+  if (driven) above.circle(camera.screen(driven), 24, "halo input");
   const at = kind === "point" ? scene.at(name) : kind === "pair" ? scene.pairs.find((each) => each.name === name)?.at : null;
   if (!at) return;
   if (selected) below.circle(camera.screen(at), 12, "halo round");

@@ -1,6 +1,7 @@
 // Pointers on the sheet: a mouse, a pen, fingers; what they mean to the camera and to the tool in hand.
 import type { Vec } from "../../shapes";
 import { dist, minus } from "./geometry";
+import { showElementMenu } from "./menu";
 import type { Board } from "./sheet";
 
 // A finger has gone so far from where it came down, px, or has been there so long, ms, before it counts as one that draws.
@@ -27,6 +28,11 @@ export class Pointers {
     on("pointercancel", (event) => this.cancel(event));
     on("pointerleave", (event) => !this.doing && event.pointerType !== "touch" && board.point(null));
     on("wheel", (event) => this.wheel(event));
+    on("contextmenu", (event) => {
+      event.preventDefault();
+      if (this.doing?.what === "wait") this.doing = null;
+      if (!this.doing) showElementMenu(board, event, this.at(event));
+    });
     on("auxclick", (event) => event.preventDefault());
   }
 

@@ -29,6 +29,8 @@ export class Scene {
   readonly guided: string[];
   readonly driver: string | null;
   readonly pairs: ScenePair[];
+  /** What is driven, with the point at which its arrow is drawn. */
+  readonly drives: { name: string; at: Vec | null }[];
 
   /** `place`: that of the machine among its positions which is shown; without a machine places are those of the drawing. */
   constructor(picture: Picture | undefined, session: Session | null, place: number, joints?: Entry, lifted: Record<string, Vec> | null = null) {
@@ -43,6 +45,7 @@ export class Scene {
       const at = lifted?.[name] ?? (key && session ? (["x", "y"].map((axis) => value(`p:${key}.${axis}`)) as Vec) : points[name]);
       if (at && at.every(Number.isFinite)) this.points.set(name, { name, key, at, fixed: fixed.includes(name), links: own });
     }
+    this.drives = Object.entries(picture?.drives ?? {}).map(([drive, { about }]) => ({ name: drive, at: about ? this.at(about) : null }));
     this.pairs = Object.entries(typeof joints === "object" && !Array.isArray(joints) ? joints : {}).flatMap(([pair, entry]) => {
       if (typeof entry !== "object" || Array.isArray(entry)) return [];
       const { kind, at } = entry;

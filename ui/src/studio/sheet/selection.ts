@@ -8,6 +8,8 @@ import type { Board } from "./sheet";
 /** What has been copied, and how often it has been pasted since. */
 let copied: { items: Item[]; pasted: number } | null = null;
 
+export const hasCopy = () => copied !== null;
+
 export function everything(board: Board): boolean {
   const { scene, bench } = board;
   bench.select(
@@ -79,8 +81,11 @@ export function nudge(board: Board, way: Vec): boolean {
   return true;
 }
 
-/** The action that moves points by a way, with all lengths between points of which only one moves. */
-export function moved({ scene }: Board, points: string[], way: Vec): Action {
-  return { do: "move", points: Object.fromEntries(points.map((name) => [name, plus(scene.at(name)!, way)])), locked: [] };
+/** The action that moves points by a way from where they are drawn; numbers that are locked stay. */
+function moved(board: Board, points: string[], way: Vec): Action {
+  board.toDrawn();
+  board.touch();
+  const { scene, bench } = board;
+  return { do: "move", points: Object.fromEntries(points.map((name) => [name, plus(scene.at(name)!, way)])), locked: [...bench.locked.value] };
 }
 

@@ -54,8 +54,9 @@ export class Board implements Sheet {
   private readonly machine: HTMLElement;
   private readonly ends: (() => void)[] = [];
   private known: Scene | null = null;
-  /** What could be drawn of the text that was solved last. */
+  /** What could be drawn of the text that the machine is of; how it differs from what can be drawn now. */
   private own: Picture | undefined;
+  private compared: { own: Picture; now: Picture; how: "same" | "more" | "other" } | null = null;
   private fitting = true;
   /** Whether the sheet shows all as it did when the file was opened: it goes on to while regions about it take their places. */
   private whole = true;
@@ -82,7 +83,6 @@ export class Board implements Sheet {
       void [bench.session.value?.version.value, page.phase.value, bench.settings.value, desk.text.value, page.language.value];
       const { picture, model, text } = desk.solved.value;
       if (!picture && !model && text === undefined) this.fitting = true;
-      if (text === desk.text.value) this.own = picture;
       if (Object.keys(picture?.links ?? {}).join() !== [...this.sides.keys()].join()) this.sides.clear();
       this.touch();
     });
@@ -110,6 +110,7 @@ export class Board implements Sheet {
     this.view?.svg.remove();
     this.view = session ? new View(session.model, this.machine, session.shown, this.camera) : null;
     if (session) session.view = this.view;
+    this.own = this.picture;
     this.touch();
   }
 
@@ -123,7 +124,10 @@ export class Board implements Sheet {
     const session = this.bench.session.value, { own, picture: now } = this;
     if (!session) return null;
     if (!now || now === own || !own) return { session, added: null };
-    return grown(own, now) ? { session, added: own } : null;
+    if (this.compared?.own !== own || this.compared.now !== now)
+      this.compared = { own, now, how: !grown(own, now) ? "other" : grown(now, own) ? "same" : "more" };
+    const { how } = this.compared;
+    return how === "other" ? null : { session, added: how === "more" ? own : null };
   }
 
   get scene(): Scene {
@@ -205,7 +209,8 @@ export class Board implements Sheet {
   private draw(): void {
     const { bench, camera } = this;
     if (camera.size[0] < 1) return;
-    if (this.fitting && bench.desk.solved.value.text === bench.desk.text.value) {
+    const { solved, text } = bench.desk;
+    if (this.fitting && solved.value.text === text.value && (!solved.value.model || this.view)) {
       this.fitting = false;
       this.whole = true;
       this.fit();
@@ -368,11 +373,17 @@ export class Board implements Sheet {
   async act(actions: Action[]): Promise<string[] | null> {
     const { bench, tool } = this, { desk, page } = bench;
     this.whole = false;
-    const made = await desk.act(actions);
+    const made = await desk.act(actions.map((action) => ({ ...action, places: { ...this.places, ...(action.places as Record<string, Vec> | undefined) } })));
     if (made) bench.set({ used: { ...bench.settings.value.used, [tool.name]: (bench.settings.value.used[tool.name] ?? 0) + 1 } });
     else if (page.note.value) this.say(page.note.value);
     this.touch();
     return made;
+  }
+
+  /** Where points are drawn that the text gives no places. */
+  private get places(): Record<string, Vec> {
+    const { placed = [], points = {} } = this.picture ?? {};
+    return Object.fromEntries(placed.filter((name) => name in points).map((name) => [name, points[name]]));
   }
 
   refuse(key: string, values: Record<string, string> = {}): void {

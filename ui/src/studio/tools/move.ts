@@ -28,6 +28,8 @@ type Doing =
 class Move implements Tool {
   readonly name = "move";
   private doing: Doing | null = null;
+  /** Where the last click was, on the screen. */
+  private clicked: Vec | null = null;
 
   constructor(private readonly sheet: Board) {}
 
@@ -36,7 +38,9 @@ class Move implements Tool {
   }
 
   down(spot: Spot): void {
-    const { bench } = this.sheet, chosen = spot.under.find((each) => bench.has(each));
+    const { bench } = this.sheet, several = bench.selection.value.length > 1, again = this.clicked && dist(this.clicked, spot.screen) < SLIP;
+    // Several that are selected go together; what was clicked here last goes though something else lies over it.
+    const chosen = several || again ? spot.under.find((each) => bench.has(each)) : undefined;
     this.doing = { what: "press", spot, item: chosen ?? spot.under[0] ?? null };
   }
 
@@ -120,7 +124,8 @@ class Move implements Tool {
   }
 
   /** The first element under the pointer, or the one below that which is selected. */
-  private click({ under, shift }: Spot): void {
+  private click({ under, shift, screen }: Spot): void {
+    this.clicked = screen;
     const { bench } = this.sheet, before = under.findIndex((each) => same(each, bench.one)), item = under[before < 0 ? 0 : (before + 1) % under.length];
     if (!item) {
       if (!shift) bench.select();
@@ -139,10 +144,10 @@ class Move implements Tool {
   private async put({ places, about }: Extract<Doing, { what: "shift" }>, { snap }: Spot): Promise<void> {
     const { sheet } = this, names = Object.keys(places), { lifted } = sheet, [name] = names;
     if (!lifted) return;
-    const end = names.length === 1 && !about && sheet.loose(name), points = Object.fromEntries(Object.entries(lifted));
+    const end = names.length === 1 && !about && sheet.loose(name), points = { ...lifted }, locked = [...sheet.bench.locked.value];
     if (end && snap?.kind === "point") await sheet.act([{ do: "merge", from: name, into: snap.name }]);
-    else if (end && snap?.kind === "link") await sheet.act([{ do: "move", points, locked: [] }, { do: "add_point", link: snap.name, point: name, at: lifted[name] }]);
-    else await sheet.act([{ do: "move", points, locked: [] }]);
+    else if (end && snap?.kind === "link") await sheet.act([{ do: "move", points, locked }, { do: "add_point", link: snap.name, point: name, at: lifted[name] }]);
+    else await sheet.act([{ do: "move", points, locked }]);
     sheet.lift(null);
   }
 
