@@ -235,6 +235,29 @@ class Gap:
                     found.setdefault(name, arm.centre + turn * (self._local(arm.link, name) - a))
         return found
 
+    @cached_property
+    def crank(self) -> tuple[str, str] | None:
+        """The pivot of the driven link and the pin that it leads the first chain with, on one and the same link."""
+        driver, arms = self.driver, self.arms
+        if driver is None or not self.rotary or driver.relative_to != "frame" or driver.joint not in self.placed:
+            return None
+        points = self.machine.link(driver.link).points
+        pins = [arms[0].pin] if arms and arms[0].pin in points else [each for each in points if each != driver.joint]
+        return (driver.joint, pins[0]) if driver.joint in points and pins and pins[0] in self.placed else None
+
+    @property
+    def way(self) -> tuple[complex, float, float] | None:
+        """Where the pin of the driven link goes: centre and radius (m), direction (rad) at the driver's zero."""
+        if self.crank is None:
+            return None
+        centre, pin = (self.placed[each] for each in self.crank)
+        return centre, abs(pin - centre), cmath.phase(pin - centre) - self.input
+
+    @property
+    def at_drawn(self) -> bool:
+        """Whether it is the drawn position that cannot be assembled."""
+        return self.driver is not None and self.index == self.drawn
+
     # where it can be assembled ------------------------------------------------------------------
     @cached_property
     def possible(self) -> list[tuple[float, float]]:

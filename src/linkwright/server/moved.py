@@ -59,6 +59,8 @@ def gap_data(gap: Gap, mechanism: Mechanism, language: str) -> Plain:
             {"name": each.link, "centre": _place(each.centre), "radius": each.radius} for each in arms if each.radius
         ],
         "points": {name: _place(place) for name, place in gap.points.items()},
+        "drawn": gap.at_drawn,
+        "way": gap.way and {"centre": _place(gap.way[0]), "radius": gap.way[1], "zero": gap.way[2]},
         "chains": [[each.link] for each in arms] or [list(gap.group.links), []],
         "possible": [[factor * low, factor * high] for low, high in gap.possible],
         "unit": "deg" if gap.rotary else "mm",

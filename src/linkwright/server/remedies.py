@@ -11,9 +11,10 @@ import numpy as np
 
 from linkwright.core.data import Plain
 from linkwright.core.outputs import row_names
+from linkwright.drivers.rocking import MARGIN
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.names import canonical
-from linkwright.kinematics.solve import try_motion
+from linkwright.kinematics.solve import solve_motion, try_motion
 from linkwright.mechanism.link import Link, second_point_address
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.server.gap import Arm, Gap, written
@@ -30,18 +31,20 @@ NEARER, FARTHER = np.linspace(1.0, 0.0, 201), np.linspace(1.0, 3.0, 201)
 @dataclass(frozen=True)
 class Remedy:
     """``change``: numbers before and after; ``actions``: those of drawing that carry it out; ``lengths``: new lengths
-    of links by it, m."""
+    of links by it, m; ``places``: where points would be then, m."""
 
     title: Message
     change: str
     note: Message
     actions: list[Plain]
     lengths: Mapping[str, float] = field(default_factory=dict)
+    places: Mapping[str, list[float]] = field(default_factory=dict)
 
     def data(self, language: str) -> Plain:
         """As plain data."""
         title, note = (in_language(each, language) for each in (self.title, self.note))
-        return {"title": title, "change": self.change, "note": note, "actions": self.actions}
+        own = {"change": self.change, "actions": self.actions, "places": dict(self.places)}
+        return {"title": title, "note": note, **own}
 
 
 _THROUGH, _SIZES, _GUIDED = _("turns through"), _("nothing changes in size"), _("slides through")
@@ -64,27 +67,18 @@ class Loop:
         known = distances[np.isfinite(distances)]
         return float(known.min()), float(known.max())
 
-    @cached_property
-    def crank(self) -> tuple[str, str] | None:
-        """The pivot of the driven link and its pin with the first chain, where it is the link between them."""
-        driver, arms = self.gap.driver, self.gap.arms
-        if driver is None or arms is None or driver.relative_to != "frame" or not driver.law.rotary:
-            return None
-        points = self.gap.machine.link(driver.link).points
-        return (driver.joint, arms[0].pin) if {driver.joint, arms[0].pin} <= set(points) else None
-
     @property
     def lengths(self) -> dict[str, float]:
         """Lengths of the links of the loop: the crank, both chains, the frame."""
         gap, arms = self.gap, self.gap.arms
         if arms is None:
             return {}
-        found = {}
-        if self.crank is not None and gap.driver is not None:
-            found[gap.driver.link] = abs(gap.placed[self.crank[0]] - gap.placed[self.crank[1]])
+        found, crank = {}, gap.crank if gap.crank and gap.crank[1] == arms[0].pin else None
+        if crank is not None and gap.driver is not None:
+            found[gap.driver.link] = abs(gap.placed[crank[0]] - gap.placed[crank[1]])
         found |= {arm.link: arm.radius for arm in arms if arm.radius is not None}
-        if self.crank is not None and arms[1].pin in gap.machine.frame.points:
-            found["frame"] = abs(gap.placed[self.crank[0]] - gap.placed[arms[1].pin])
+        if crank is not None and arms[1].pin in gap.machine.frame.points:
+            found["frame"] = abs(gap.placed[crank[0]] - gap.placed[arms[1].pin])
         return found
 
 
@@ -110,7 +104,14 @@ def _rock(gap: Gap) -> Remedy:
     unit, factor = ("°", 180 / math.pi) if gap.rotary else (" mm", 1e3)
     change = f"{_whole(factor * low)}{unit} … {_whole(factor * high)}{unit}"
     action = {"do": "set", "path": ["cycle"], "value": "rock"}
-    return Remedy(_("Rock the {link}", link=gap.driver.link), change, _SIZES, [action])
+    free = MARGIN * (high - low)
+    nearest = min((low + free, high - free), key=lambda end: _off(end - gap.input, gap.rotary))
+    title = _("Rock the {link}", link=gap.driver.link)
+    return Remedy(title, change, _SIZES, [action], places=_places(gap.machine, nearest))
+
+
+def _off(way: float, rotary: bool) -> float:
+    return abs(math.remainder(way, 2 * math.pi)) if rotary else abs(way)
 
 
 def _whole(value: float) -> str:
@@ -129,8 +130,9 @@ def _lengths(gap: Gap) -> Iterator[Remedy]:
         for value in _values(gap, arm, gap.arms[other]):
             if path := _path(gap.machine, address):
                 name = ".".join(path[1:]) if path[0] == "parameters" else address
-                if _moves(gap.machine, {name: value}):
-                    yield _length_remedy(gap, arm, address, path, value)
+                changed = _moving(gap.machine, {name: value})
+                if changed is not None:
+                    yield _length_remedy(gap, arm, path, value, changed)
                     break
 
 
@@ -177,7 +179,7 @@ def _step(length: float) -> float:
     return 10.0 ** (math.floor(math.log10(length)) - 1)
 
 
-def _length_remedy(gap: Gap, arm: Arm, address: str, path: list[str], value: float) -> Remedy:
+def _length_remedy(gap: Gap, arm: Arm, path: list[str], value: float, changed: Mechanism) -> Remedy:
     before = arm.radius or 0.0
     link = gap.machine.links[arm.link]
     new: object = _text(value)
@@ -185,7 +187,8 @@ def _length_remedy(gap: Gap, arm: Arm, address: str, path: list[str], value: flo
         new = [_text(value), _text(link.lengths[1])]
     title = _LENGTHS[value > before].format(link=arm.link)
     action = {"do": "set", "path": path, "value": new}
-    return Remedy(title, _change(before, value), _through(gap), [action], {arm.link: value})
+    places = _places(changed, gap.input)
+    return Remedy(title, _change(before, value), _through(gap), [action], {arm.link: value}, places)
 
 
 def _through(gap: Gap) -> Message:
@@ -211,8 +214,8 @@ def _pivot(gap: Gap) -> Remedy | None:
     if any(f"frame.{name}.{axis}" in gap.machine.expressions for axis in "xy"):
         return None
     path = _way(gap, first)
-    crank = Loop(gap).crank
-    middle = gap.placed[crank[0]] if crank is not None else complex(path.mean())
+    leads = gap.crank is not None and gap.crank[1] == first.pin
+    middle = gap.placed[gap.crank[0]] if leads and gap.crank is not None else complex(path.mean())
     away = second.centre - middle
     both, between = first.radius + second.radius, abs(first.radius - second.radius)  # type: ignore[operator]
     far = bool(np.abs(path - second.centre).max() > both)
@@ -242,19 +245,33 @@ def _way(gap: Gap, arm: Arm) -> np.ndarray[tuple[int], np.dtype[np.complex128]]:
 def _moved(gap: Gap, name: str, middle: complex, away: complex, distance: float, *, far: bool) -> Remedy | None:
     place = middle + distance * away / abs(away)
     x, y = (round(each, 4) for each in (place.real, place.imag))
-    if not _moves(gap.machine, {f"frame.{name}.x": x, f"frame.{name}.y": y}):
+    changed = _moving(gap.machine, {f"frame.{name}.x": x, f"frame.{name}.y": y})
+    if changed is None:
         return None
     title = _("Move {point} nearer", point=written(name)) if far else _("Move {point} away", point=written(name))
     action = {"do": "set", "path": ["frame", "points", name], "value": [_text(x), _text(y)]}
-    return Remedy(title, _change(abs(away), distance), _through(gap), [action], {"frame": distance})
+    places = _places(changed, gap.input)
+    return Remedy(title, _change(abs(away), distance), _through(gap), [action], {"frame": distance}, places)
 
 
-def _moves(machine: Mechanism, changes: Mapping[str, float]) -> bool:
-    """Whether the changed machine passes its cycle."""
+def _moving(machine: Mechanism, changes: Mapping[str, float]) -> Mechanism | None:
+    """The changed machine, if it passes its cycle."""
     try:
-        return try_motion(machine.with_dimensions(changes), TRIED).complete
+        changed = machine.with_dimensions(changes)
+        return changed if try_motion(changed, TRIED).complete else None
     except LinkwrightError:
-        return False
+        return None
+
+
+def _places(machine: Mechanism, at: float) -> dict[str, list[float]]:
+    """Where a machine's points are at a coordinate of its driver, m, by their names."""
+    try:
+        motion = solve_motion(machine, at=at)
+    except LinkwrightError:
+        return {}
+    links = {"frame": machine.frame, **machine.links}
+    keys = {point: canonical(machine, name, point) for name, link in links.items() for point in link.points}
+    return {point: motion.point(key).position[0].tolist() for point, key in keys.items()}
 
 
 def wanted(found: Sequence[Remedy]) -> dict[str, float]:

@@ -64,6 +64,24 @@ def test_the_gap_is_that_of_the_drawn_position() -> None:
     assert found["lengths"][1]["wanted"] == pytest.approx(0.2)
 
 
+def test_remedies_show_where_the_points_would_be() -> None:
+    found = gap(four_bar())
+    assert found["drawn"]
+    assert found["way"] == {
+        "centre": [0.0, 0.0],
+        "radius": pytest.approx(0.06),
+        "zero": pytest.approx(0.0, abs=1e-12),
+    }
+    longer, rocking, nearer = (each["places"] for each in found["remedies"])
+    for places, coupler in ((longer, 0.2), (rocking, 0.11), (nearer, 0.11)):
+        (ax, ay), (bx, by), (cx, cy) = places["A"], places["B"], places["O2"]
+        assert hypot(bx - ax, by - ay) == pytest.approx(coupler)
+        assert hypot(bx - cx, by - cy) == pytest.approx(0.09)
+        assert hypot(ax, ay) == pytest.approx(0.06)
+    assert nearer["O2"] == pytest.approx([0.13, 0.0])
+    assert not gap(four_bar(drawn=0.0))["drawn"]
+
+
 def test_the_machine_moves_as_far_as_it_goes() -> None:
     answer = solved(four_bar(), "en")
     limit = degrees(acos((60**2 + 220**2 - 200**2) / (2 * 60 * 220)))

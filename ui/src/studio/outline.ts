@@ -16,6 +16,8 @@ export interface Remedy {
   change: string;
   note: string;
   actions: { do: string }[];
+  /** Where points would be by it, m, at the coordinate of the gap. */
+  places: Record<string, Vec>;
 }
 
 /** Where a machine comes apart: two ends that ought to be one point, and how far the chains to them reach (m). */
@@ -28,6 +30,10 @@ export interface Gap {
   ends: [Vec, Vec] | null;
   missing: number;
   reaches: { name: string; centre: Vec; radius: number }[];
+  /** Whether it is the drawn position that cannot be assembled: there the sheet shows it in place of the machine. */
+  drawn: boolean;
+  /** Where the pin of the driven link goes: centre, radius (m), direction (rad) at the driver's zero; null: it does not turn. */
+  way: { centre: Vec; radius: number; zero: number } | null;
   /** All points as far as they can be placed; the links of the two ends by name. */
   points: Record<string, Vec>;
   chains: [string[], string[]];

@@ -26,6 +26,8 @@ SHEET: dict[str, Message] = {
     "sheet.snap_square_to": _("Square to {name}"),
     "sheet.snap_parallel_to": _("Parallel to {name}"),
     "sheet.snap_kept": _("Direction held, {angle}"),
+    "sheet.gap_reach": _("reach of {link}"),
+    "sheet.gap_aside": _("Put aside"),
     "sheet.set": pgettext("value", "Set"),
     "sheet.key_next": pgettext("key", "next"),
     "sheet.key_set": pgettext("key", "set"),

@@ -31,6 +31,8 @@ export class Scene {
   readonly pairs: ScenePair[];
   /** What is driven, with the point at which its arrow is drawn. */
   readonly drives: { name: string; at: Vec | null }[];
+  /** Points that a link has elsewhere than the others that share them: ends that do not meet. */
+  apart: Record<string, Record<string, Vec>> = {};
 
   /** `place`: that of the machine among its positions which is shown; without a machine places are those of the drawing. */
   constructor(picture: Picture | undefined, session: Session | null, place: number, joints?: Entry, lifted: Record<string, Vec> | null = null) {
@@ -59,7 +61,7 @@ export class Scene {
 
   /** The places of a link's points, in its order. */
   corners(link: string): Vec[] {
-    return (this.links[link] ?? []).map((name) => this.at(name)).filter((each) => each !== null);
+    return (this.links[link] ?? []).map((name) => this.apart[link]?.[name] ?? this.at(name)).filter((each) => each !== null);
   }
 
   /** The box of all points, m; null where there are fewer than two. */

@@ -6,9 +6,11 @@ import type { Vec } from "../../shapes";
 import { element } from "../../strokes";
 import { View } from "../../view";
 import { type Bench, type Item, same, type ToolName } from "../bench";
+import type { Gap } from "../outline";
 import { MAKE } from "../tools";
 import type { Overlay, Sheet, Spot, Tool } from "../tools/tool";
 import { Camera, FULL } from "./camera";
+import { boxOf, comeApart } from "./gap";
 import { heading } from "./geometry";
 import { Grid, spacing } from "./grid";
 import { FINGER, NEAR, under } from "./hits";
@@ -80,7 +82,7 @@ export class Board implements Sheet {
       if (bench.tool.value !== this.tool.name) this.begin(bench.tool.value);
     });
     this.follow(() => {
-      void [bench.session.value?.version.value, page.phase.value, bench.settings.value, desk.text.value, page.language.value];
+      void [bench.session.value?.version.value, page.phase.value, page.playing.value, bench.settings.value, desk.text.value, page.language.value];
       const { picture, model, text } = desk.solved.value;
       if (!picture && !model && text === undefined) this.fitting = true;
       if (Object.keys(picture?.links ?? {}).join() !== [...this.sides.keys()].join()) this.sides.clear();
@@ -135,14 +137,24 @@ export class Board implements Sheet {
   }
 
   private looked(): Scene {
-    const session = this.base?.session ?? null, { outline } = this.bench.desk.solved.value;
+    const { outline } = this.bench.desk.solved.value, { broken } = this;
+    if (broken && this.picture) return comeApart(broken, this.picture, outline?.entries.joints, this.lifted);
+    const session = this.base?.session ?? null;
     return new Scene(this.picture, session, session ? this.bench.page.place(session) : 0, outline?.entries.joints, this.lifted);
+  }
+
+  /** Why the drawn position cannot be assembled, while it is the one that is shown. */
+  get broken(): Gap | null {
+    const { bench } = this, { page, desk } = bench, { gap, text } = desk.solved.value, session = bench.session.value;
+    if (!gap?.drawn || text !== desk.text.value || page.playing.value) return null;
+    const phase = page.phase.value;
+    return !session || phase === 0 || Math.abs(phase - drawnPhase(session)) < 1e-9 ? gap : null;
   }
 
   /** The machine that the present text makes; null where it makes none, or none yet. */
   get solved(): Session | null {
-    const { base } = this;
-    return base && !base.added ? base.session : null;
+    const { base, broken } = this;
+    return base && !base.added && !broken ? base.session : null;
   }
 
   /** The place of the machine among its positions that is shown. */
@@ -240,9 +252,10 @@ export class Board implements Sheet {
       this.grid.draw(camera, bench.shows("grid") ? step : 0);
       bench.scale.value = camera.scale;
     }
-    machine.hidden = !base;
+    const { broken } = this;
+    machine.hidden = !base || broken !== null;
     const ink = inkOf(lengths(this));
-    if (base && this.view) {
+    if (base && !broken && this.view) {
       const { session } = base, { page } = bench;
       Object.assign(session.shown, { names: bench.shows("names"), velocities: bench.shows("velocities"), accelerations: bench.shows("accelerations"), forces: bench.shows("forces"), centres: bench.shows("centres") });
       machine.classList.toggle("without-loads", !bench.shows("loads"));
@@ -251,8 +264,8 @@ export class Board implements Sheet {
       this.view.taken = ink;
       this.view.look();
     }
-    if (base && !base.added) sketch.clear();
-    else sketch.draw(this.scene, camera, bench.shows("names"), base?.added ?? null, ink);
+    if (base && !base.added && !broken) sketch.clear();
+    else sketch.draw(this.scene, camera, bench.shows("names"), broken ? null : (base?.added ?? null), ink);
     this.seen = seen;
   }
 
@@ -297,7 +310,8 @@ export class Board implements Sheet {
 
   /** Puts all of the drawing into the sheet. */
   fit(): void {
-    const { camera } = this, { base } = this, box = base && this.view ? this.view.box : this.scene.box;
+    const { camera, base, broken } = this, gap = this.bench.gap.value;
+    const own = base && this.view && !broken ? this.view.box : this.scene.box, box = gap && (broken || !gap.drawn) ? boxOf(gap, own) : own;
     if (box) camera.fit(box, Math.min(96, 0.14 * Math.min(...camera.size)));
     else [camera.scale, camera.origin] = [FULL, [Math.round(0.4 * camera.size[0]), Math.round(0.6 * camera.size[1])]];
     this.touch();

@@ -2,6 +2,7 @@
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { Bench } from "../bench";
 import { First } from "./first";
+import { GapCallout } from "./gap-callout";
 import { Hand } from "./hand";
 import { Keys } from "./keys";
 import { Layers } from "./layers";
@@ -40,6 +41,7 @@ export function Stage({ bench }: { bench: Bench }) {
       <ShowBar bench={bench} />
       {board && <First board={board} />}
       {board && <Hint board={board} />}
+      {board && <GapCallout board={board} />}
       {board && <Refusal board={board} />}
       {board && <p class="unseen" aria-live="polite">{board.said.value}</p>}
     </main>
