@@ -5,7 +5,7 @@ import type { Vec } from "../src/shapes";
 import type { Item } from "../src/studio/bench";
 import { Camera } from "../src/studio/sheet/camera";
 import { Scene } from "../src/studio/sheet/scene";
-import { radii, wheels } from "../src/studio/tools/gears";
+import { centres, radii, wheels } from "../src/studio/tools/gears";
 import { distance, meeting } from "../src/studio/tools/hand";
 import { driven } from "../src/studio/tools/measure";
 import { SHAPES } from "../src/studio/tools/shapes";
@@ -179,7 +179,7 @@ test("refused clicks say why, and write nothing", async () => {
     ["plate", [O1, A, "length=1", "back=1", NOWHERE], "refuse.plate_sides"], ["slider", [NOWHERE], "refuse.slider_point"], ["slider", [O2], "refuse.slider_pivot"],
     ["slider", [[0, 200]], "refuse.slider_loose"], ["slider", [D], "refuse.slider_there"], ["slot", [NOWHERE], "refuse.slot_link"], ["slot", [D], "refuse.slot_short"],
     ["slot", [ARM, NOWHERE], "refuse.slot_point"], ["slot", [ARM, C], "refuse.slot_own"], ["weld", [NOWHERE], "refuse.weld_joint"], ["weld", [[0, 200]], "refuse.weld_single"],
-    ["gears", [NOWHERE], "refuse.gears_link"], ["gears", [CRANK, CRANK], "refuse.gears_twice"], ["gears", [[94.5, 74.5]], "refuse.gears_pivot"],
+    ["gears", [NOWHERE], "refuse.gears_link"], ["gears", [CRANK, CRANK], "refuse.gears_twice"], ["gears", [D], "refuse.gears_pivot"], ["gears", [CRANK, D], "refuse.gears_apart"],
     ["gears", [CRANK, ARM, "teeth=20:-20", "Enter"], "refuse.gears_inside"], ["rack", [D], "refuse.rack_pivot"], ["rack", [CRANK, ARM], "refuse.rack_slider"],
     ["rack", [CRANK, NOWHERE], "refuse.rack_none"], ["cam", [[94.5, 74.5]], "refuse.cam_pivot"], ["cam", [CRANK, NOWHERE], "refuse.cam_point"], ["cam", [CRANK, A], "refuse.cam_own"],
     ["cam", [CRANK, [0, 200]], "refuse.cam_follower"], ["cam", [CRANK, D, O1], "refuse.cam_lift"], ["dimension", [NOWHERE], "refuse.dimension_first"],
@@ -256,6 +256,12 @@ test("wheels meet where the pointer is: between the pivots outside each other, b
   assert.deepEqual(wheels(a, b, at(90, 0)), { teeth: [60, 20], inside: true });
   assert.deepEqual(radii({ teeth: [20, 40], inside: false }, 60), [20, 40]);
   assert.deepEqual(radii({ teeth: [20, 60], inside: true }, 40), [20, 60]);
+});
+
+test("wheels turn on the frame where they can, else on a link that is pinned to both", () => {
+  const points = { O1: at(0, 0), S: at(5, 5), P: at(40, 0), Q: at(40, 9), O2: at(90, 0), R: at(90, 9) };
+  const scene = new Scene({ ...PICTURE, points, fixed: ["O1", "O2"], links: { sun: ["O1", "S"], arm: ["O1", "P"], planet: ["P", "Q"], wheel: ["O2", "R"] } }, null, 0);
+  assert.deepEqual([centres(scene, "sun", "wheel"), centres(scene, "sun", "planet"), centres(scene, "planet", "wheel")], [["O1", "O2"], ["O1", "P"], null]);
 });
 
 test("circles meet on the side that is asked for, by Pythagoras", () => {

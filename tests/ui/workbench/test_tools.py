@@ -152,7 +152,7 @@ def test_refused_clicks_say_what_is_missing_and_write_nothing(chromium: Any, tmp
     with hand(chromium, tmp_path, "parts.yaml") as drawn:
         drawn.look(-0.12, -0.08, 0.26, 0.18)
         for tool, steps, key, values in (
-            ("gears", [COUPLER], "gears_pivot", {"link": "coupler"}),
+            ("gears", [F], "gears_pivot", {"link": "block"}),
             ("rack", [CRANK, ARM], "rack_slider", {"link": "arm"}),
             ("cam", [CRANK, B], "cam_follower", {"point": "B"}),
             ("slider", [NOWHERE], "slider_point", {}),

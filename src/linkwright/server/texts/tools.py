@@ -43,7 +43,7 @@ DRAWING: dict[str, Message] = {
     "hint.slot.link": _("Click the slotted link"),
     "hint.slot.point": _("Click the point that slides in {first}"),
     "hint.weld": _("Click a joint: its links become one; click it again and they turn about it"),
-    "hint.gears.first": _("Click the first of two links with pivots"),
+    "hint.gears.first": _("Click the first of two links that turn on the frame or on one arm"),
     "hint.gears.second": _("Click the link that meshes with {first}"),
     "hint.gears.teeth": _(
         "Type the numbers of teeth, or click where the wheels meet; beyond a pivot one is inside the other"
@@ -94,7 +94,10 @@ REFUSALS: dict[str, Message] = {
     "refuse.weld_single": _("Nothing is joined at {point}; Weld needs a joint of two links"),
     "refuse.gears_link": _("Click a link with a pivot; set one with Pivot P"),
     "refuse.gears_twice": _("A wheel does not mesh with itself; click another link"),
-    "refuse.gears_pivot": _("{link} has no pivot; set one with Pivot P"),
+    "refuse.gears_pivot": _("{link} turns about nothing; set a pivot with Pivot P"),
+    "refuse.gears_apart": _(
+        "{first} and {link} do not turn on one link; give both a pivot with Pivot P, or pin both to one arm"
+    ),
     "refuse.gears_same": _("Both wheels turn about the same pivot, where they cannot mesh"),
     "refuse.gears_inside": _("The wheel inside has fewer teeth than the ring; type them so, as 20 : 60"),
     "refuse.rack_link": _("Rack needs a link with a pivot as pinion; set one with Pivot P"),

@@ -23,7 +23,7 @@ import { Sketch } from "./sketch";
 import { REACH, snap } from "./snap";
 
 /** Tools that work on the machine as it stands or on what lies beside it: the others draw, at the drawn position. */
-const STAYS = new Set<ToolName>(["move", "dimension", "target", "photo", "erase"]);
+const STAYS = new Set<ToolName>(["move", "target", "photo", "erase"]);
 /** Tools that put something where the pointer snaps to. */
 const PLACING = new Set<ToolName>(["pivot", "link", "plate", "slider", "slot", "force", "spring", "cam"]);
 /** How often a tool is used until its hint goes. */

@@ -1,9 +1,8 @@
 // Cam: click the link that turns, then the point that follows, then its lift; law and touch are set in the inspector.
 import type { Vec } from "../../shapes";
-import { pivoted } from "./gears";
 import { distance, heading, pivotOf, pointAt, polar } from "./hand";
 import { circle, joint, line, taken } from "./marks";
-import { picking, type Hand, type Step } from "./picking";
+import { picking, pivoted, type Hand, type Step } from "./picking";
 import { blocks } from "./rack";
 import type { Spot } from "./tool";
 import { reads } from "./typed";

@@ -50,9 +50,11 @@ class DimensionTool implements Tool {
     return back;
   }
 
+  /** What is picked measures; what is not in the drawing any more is let go. */
   private get measure(): Measure | null {
     const { scene } = this.sheet, there = this.picked.every(({ kind, name }) => (kind === "link" ? name in scene.links : scene.points.has(name)));
-    return there && this.picked.length ? measured(scene, this.picked) : null;
+    if (!there) this.drop();
+    return this.picked.length ? measured(scene, this.picked) : null;
   }
 
   fields(): Field[] {
@@ -62,7 +64,7 @@ class DimensionTool implements Tool {
     return [this.values.field(key, this.values.value(key) ?? sizeOf(this.sheet.scene, measure))];
   }
 
-  type = (key: string, text: string) => this.values.type(key, text, (value) => (key === "length" ? value > LEAST : value >= 0 && value <= Math.PI));
+  type = (key: string, text: string) => this.values.type(key, text, (value) => (key === "length" ? value > LEAST : value >= 0 && value <= 2 * Math.PI));
 
   takes = ({ kind }: Item) => kind === "point" || kind === "link" || kind === "dimension";
 

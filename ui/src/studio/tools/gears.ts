@@ -1,5 +1,7 @@
-// Gears: click two links with pivots; the pointer on the line of their pivots sets the ratio, beyond a pivot one lies inside.
+// Gears: click two links that turn on one carrier; the pointer on the line of their centres sets the ratio, beyond one of them
+// one wheel lies inside the other.
 import type { Vec } from "../../shapes";
+import type { Scene } from "../sheet/scene";
 import { distance, linkAt, pivotOf } from "./hand";
 import { circle, line, taken } from "./marks";
 import { picking, type Hand, type Step } from "./picking";
@@ -7,22 +9,6 @@ import type { Spot } from "./tool";
 
 // Teeth of the smaller wheel that the pointer sets, and the most of the larger; a ring has so many more at least.
 const SMALL = 20, LARGE = 400, MORE = 8;
-
-/** A click on a link with a pivot; `role` is part of the refusals. */
-export function pivoted(role: string, hint: string): Step {
-  const fits = ({ sheet: { scene }, picked }: Hand) => (link: string) => pivotOf(scene, link) !== null && picked.every(({ name }) => name !== link);
-  return {
-    hint,
-    takes: (hand, { kind, name }) => kind === "link" && fits(hand)(name),
-    pick(hand, spot) {
-      const { sheet, picked } = hand, { scene } = sheet, link = linkAt(spot, scene, fits(hand));
-      if (link && fits(hand)(link)) return { name: link, at: scene.at(pivotOf(scene, link)!)!, before: [] };
-      const twice = picked.some(({ name }) => name === link);
-      sheet.refuse(!link ? `refuse.${role}_link` : twice ? `refuse.${role}_twice` : `refuse.${role}_pivot`, { link: link ?? "" });
-      return null;
-    },
-  };
-}
 
 export interface Wheels {
   /** Numbers of teeth, first and second. */
@@ -44,17 +30,55 @@ export function radii({ teeth: [a, b], inside }: Wheels, far: number): [number, 
   return [a * unit, b * unit];
 }
 
-function asked({ sheet, picked: [a, b], values }: Hand, spot: Spot): Wheels {
-  const free = wheels(a.at, b.at, spot.free), text = values.written("teeth");
+/** The points about which two links turn on one carrier: the frame, else a link that is pinned to both. */
+export function centres(scene: Scene, a: string, b: string): [string, string] | null {
+  const common = (one: string, other: string) => scene.links[one].find((point) => scene.links[other].includes(point));
+  const fixed = [pivotOf(scene, a), pivotOf(scene, b)], carriers = Object.keys(scene.links).filter((link) => link !== a && link !== b);
+  const found = [fixed, ...carriers.map((carrier) => [common(a, carrier), common(b, carrier)])].filter(([first, second]) => first && second);
+  return (found.find(([first, second]) => first !== second) ?? found[0] ?? null) as [string, string] | null;
+}
+
+/** A link that can be a wheel: it turns on the frame or on another link. */
+const turns = (scene: Scene, link: string) => scene.links[link].some((name) => scene.points.get(name)?.fixed || scene.points.get(name)!.links.length > 1);
+
+const first: Step = {
+  hint: "hint.gears.first",
+  takes: ({ sheet: { scene } }, { kind, name }) => kind === "link" && name in scene.links && turns(scene, name),
+  pick({ sheet }, spot) {
+    const { scene } = sheet, link = linkAt(spot, scene, (name) => turns(scene, name));
+    if (link && turns(scene, link)) return { name: link, at: scene.corners(link)[0], before: [] };
+    sheet.refuse(link ? "refuse.gears_pivot" : "refuse.gears_link", { link: link ?? "" });
+    return null;
+  },
+};
+
+const second: Step = {
+  hint: "hint.gears.second",
+  takes: ({ sheet: { scene }, picked: [{ name: one }] }, { kind, name }) => kind === "link" && name !== one && name in scene.links && centres(scene, one, name) !== null,
+  pick({ sheet, picked: [{ name: one }] }, spot) {
+    const { scene } = sheet, link = linkAt(spot, scene, (name) => name !== one && centres(scene, one, name) !== null);
+    const found = link && link !== one ? centres(scene, one, link) : null;
+    if (link && found && found[0] !== found[1]) return { name: link, at: scene.corners(link)[0], before: [] };
+    const why = !link ? "link" : link === one ? "twice" : found ? "same" : "apart";
+    sheet.refuse(`refuse.gears_${why}`, { link: link ?? "", first: one });
+    return null;
+  },
+};
+
+/** The places of the two centres, m. */
+const middles = ({ sheet: { scene }, picked: [a, b] }: Hand): [Vec, Vec] => centres(scene, a.name, b.name)!.map((name) => scene.at(name)!) as [Vec, Vec];
+
+function asked(hand: Hand, spot: Spot): Wheels {
+  const free = wheels(...middles(hand), spot.free), text = hand.values.written("teeth");
   if (!text) return free;
-  const [first, second] = text.split(":").map(Number);
-  return { teeth: [first, Math.abs(second)], inside: second < 0 || (free.inside && sheet.spot !== null) };
+  const [a, b] = text.split(":").map(Number);
+  return { teeth: [a, Math.abs(b)], inside: b < 0 || free.inside };
 }
 
 export const makeGears = picking({
   name: "gears",
   makes: "pair",
-  steps: [pivoted("gears", "hint.gears.first"), apart(pivoted("gears", "hint.gears.second"))],
+  steps: [first, second],
   last: {
     hint: "hint.gears.teeth",
     quantities: { teeth: "teeth" },
@@ -72,7 +96,7 @@ export const makeGears = picking({
     const { sheet, picked } = hand;
     for (const { name } of picked) taken(over, sheet, name);
     if (!spot || picked.length < 2) return;
-    const found = asked(hand, spot), [a, b] = picked.map(({ at }) => sheet.camera.screen(at)), sizes = radii(found, distance(a, b));
+    const found = asked(hand, spot), [a, b] = middles(hand).map((at) => sheet.camera.screen(at)), sizes = radii(found, distance(a, b));
     over.path(line(a, b), "soft dashed");
     [a, b].forEach((centre, k) => {
       if (Number.isFinite(sizes[k])) circle(over, centre, sizes[k], "ghost");
@@ -80,16 +104,3 @@ export const makeGears = picking({
     });
   },
 });
-
-/** The same step for wheels whose pivots are apart. */
-function apart(step: Step): Step {
-  return {
-    ...step,
-    pick(hand, spot) {
-      const found = step.pick(hand, spot);
-      if (!found || distance(found.at, hand.picked[0].at) > 1e-6) return found;
-      hand.sheet.refuse("refuse.gears_same");
-      return null;
-    },
-  };
-}

@@ -129,6 +129,13 @@ export function endAt(spot: Spot, scene: Scene, taken: Iterable<string> = []): E
   return { name: freshPoint(scene, false, taken), at: spot.place, made: true, on: snap?.kind === "link" && snap.name in scene.links ? snap.name : null };
 }
 
+/** What an end is now: a joint that is gone meanwhile is made again; `coming`: points on their way into the text. */
+export function current(end: End, scene: Scene, coming: Iterable<string> = []): End {
+  const there = scene.at(end.name);
+  if (there) return { name: end.name, at: there, made: false, on: null };
+  return [...coming].includes(end.name) ? end : { ...end, made: true };
+}
+
 /** The action that makes a point in hand part of the link that it was dropped on; none where it was not. */
 export const dropped = ({ name, at, on }: End) => (on ? [{ do: "add_point", link: on, point: name, at }] : []);
 

@@ -1,6 +1,6 @@
 // Link: click a joint, click the next one; the end of a link begins the next. A typed length is kept whatever the pointer does.
 import type { Vec } from "../../shapes";
-import { Clicks, distance, dropped, type End, endAt, heading, near, pointAt, polar, TypedValues } from "./hand";
+import { Clicks, current, distance, dropped, type End, endAt, heading, near, pointAt, polar, TypedValues } from "./hand";
 import { inHand, joint } from "./marks";
 import type { MakeTool, Overlay, Sheet, Spot, Tool } from "./tool";
 
@@ -103,7 +103,7 @@ class LinkTool implements Tool {
   }
 
   private finish(to: End): void {
-    const { scene } = this.sheet, from = this.from!, length = this.values.written("length");
+    const { scene } = this.sheet, from = current(this.from!, scene, this.coming), length = this.values.written("length");
     if (to.name === from.name || (length === null && distance(this.start!, to.at) < SAME)) return;
     const there = Object.keys(scene.links).find((link) => scene.links[link].length === 2 && [from.name, to.name].every((each) => scene.links[link].includes(each)));
     if (there) return this.sheet.refuse("refuse.link_there", { link: there, a: from.name, b: to.name });

@@ -2,7 +2,7 @@
 import type { Action } from "../../picture";
 import type { Vec } from "../../shapes";
 import type { Item, ToolName } from "../bench";
-import { Clicks, TypedValues } from "./hand";
+import { Clicks, linkAt, pivotOf, TypedValues } from "./hand";
 import type { Field, MakeTool, Overlay, Sheet, Spot, Tool } from "./tool";
 
 /** What has been clicked: a link or a point, with its place (m) and actions that have to come before it is there. */
@@ -62,11 +62,18 @@ class PickTool implements Tool, Hand {
     return this.picks.name;
   }
 
+  /** Lets go of what is not in the drawing any more. */
+  private look(): void {
+    const { scene } = this.sheet, there = ({ name, before }: Picked) => before.length > 0 || name in scene.links || scene.points.has(name);
+    if (!this.picked.every(there)) this.picked = [];
+  }
+
   private get step(): Step | undefined {
     return this.picks.steps[this.picked.length];
   }
 
   hint(): [string, Record<string, string>] {
+    this.look();
     return [(this.step ?? this.picks.last!).hint, { first: this.picked[0]?.name ?? "", second: this.picked[1]?.name ?? "" }];
   }
 
@@ -95,6 +102,7 @@ class PickTool implements Tool, Hand {
   }
 
   fields(): Field[] {
+    this.look();
     const { spot } = this.sheet;
     return this.step || !spot ? [] : this.picks.last!.fields(this, spot);
   }
@@ -104,6 +112,7 @@ class PickTool implements Tool, Hand {
   takes = (item: Item) => (this.step ?? this.picks.last)?.takes?.(this, item) ?? false;
 
   private click(spot: Spot): void {
+    this.look();
     const { step } = this;
     if (step) {
       const found = step.pick(this, spot);
@@ -130,6 +139,7 @@ class PickTool implements Tool, Hand {
   }
 
   draw(over: Overlay): void {
+    this.look();
     this.picks.draw(over, this, this.sheet.spot);
   }
 
@@ -141,3 +151,19 @@ class PickTool implements Tool, Hand {
 }
 
 export const picking = (picks: Picks): MakeTool => (sheet) => new PickTool(sheet, picks);
+
+/** A click on a link with a pivot; `role` is part of the refusals. */
+export function pivoted(role: string, hint: string): Step {
+  const fits = ({ sheet: { scene }, picked }: Hand) => (link: string) => pivotOf(scene, link) !== null && picked.every(({ name }) => name !== link);
+  return {
+    hint,
+    takes: (hand, { kind, name }) => kind === "link" && fits(hand)(name),
+    pick(hand, spot) {
+      const { sheet, picked } = hand, { scene } = sheet, link = linkAt(spot, scene, fits(hand));
+      if (link && fits(hand)(link)) return { name: link, at: scene.at(pivotOf(scene, link)!)!, before: [] };
+      const twice = picked.some(({ name }) => name === link);
+      sheet.refuse(!link ? `refuse.${role}_link` : twice ? `refuse.${role}_twice` : `refuse.${role}_pivot`, { link: link ?? "" });
+      return null;
+    },
+  };
+}

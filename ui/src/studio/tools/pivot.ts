@@ -50,8 +50,13 @@ class PivotTool implements Tool {
     return [this.values.value("x") ?? x, this.values.value("y") ?? y];
   }
 
+  /** The point that a click fixes or frees; none where Alt is held or a place is typed. */
+  private on(spot: Spot): string | null {
+    return this.values.any || spot.alt ? null : pointAt(spot, this.sheet.scene);
+  }
+
   private click(spot: Spot): void {
-    const { scene } = this.sheet, point = this.values.any ? null : pointAt(spot, scene);
+    const { scene } = this.sheet, point = this.on(spot);
     if (point) {
       void this.sheet.act([{ do: "fix", point, fixed: !scene.points.get(point)!.fixed }]);
       this.sheet.bench.select({ kind: "point", name: point });
@@ -70,8 +75,8 @@ class PivotTool implements Tool {
   }
 
   draw(over: Overlay): void {
-    const { spot, camera, scene } = this.sheet;
-    if (!spot || (!this.values.any && pointAt(spot, scene))) return;
+    const { spot, camera } = this.sheet;
+    if (!spot || this.on(spot)) return;
     const [x, y] = camera.screen(this.place(spot));
     over.path(`M${x} ${y}L${x - 9} ${y + 16}H${x + 9}ZM${x - 15} ${y + 16}H${x + 15}`, "ghost");
     joint(over, [x, y], "ghost pin");

@@ -1,7 +1,7 @@
 // Plate: click three or more joints; Enter or the first joint closes it. With a link selected a click adds a point to it.
 import type { Action } from "../../picture";
 import type { Vec } from "../../shapes";
-import { Clicks, distance, dropped, type End, endAt, freshPoint, heading, meeting, near, pointAt, polar, TypedValues } from "./hand";
+import { Clicks, current, distance, dropped, type End, endAt, freshPoint, heading, meeting, near, pointAt, polar, TypedValues } from "./hand";
 import { arc, inHand, joint, line, taken } from "./marks";
 import type { Field, MakeTool, Overlay, Sheet, Spot, Tool } from "./tool";
 
@@ -131,7 +131,7 @@ class PlateTool implements Tool {
   private close(): void {
     if (!this.corners.length) return;
     if (this.corners.length < 3) return this.sheet.refuse("refuse.plate_few");
-    const { corners } = this, sides = [...corners.slice(1).map(({ side }) => side), this.back];
+    const corners = this.corners.map((each) => ({ ...current(each, this.sheet.scene, this.coming), side: each.side })), sides = [...corners.slice(1).map(({ side }) => side), this.back];
     const places = Object.fromEntries(corners.filter(({ made }) => made).map(({ name, at }) => [name, at]));
     const plate = { do: "link", points: corners.map(({ name }) => name), places, ...(sides.some(Boolean) && { sides }) };
     [this.corners, this.back] = [[], null];

@@ -1,10 +1,9 @@
 // Rack: click the pinion, then the link that slides.
 import type { Bench, Item } from "../bench";
 import type { Scene } from "../sheet/scene";
-import { pivoted } from "./gears";
 import { linkAt, pointAt } from "./hand";
 import { taken } from "./marks";
-import { picking, type Step } from "./picking";
+import { picking, pivoted, type Step } from "./picking";
 import { pairs } from "./weld";
 import type { Spot } from "./tool";
 
