@@ -22,6 +22,7 @@ from linkwright.cli import main
 REQUESTS = (
     "files",
     "folder",
+    "thumbnail",
     "rename",
     "discard",
     "open",

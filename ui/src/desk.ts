@@ -131,6 +131,8 @@ export class Desk {
   /** When the last draft was kept (ms of the clock), 0: none; whether the file has been saved at all. */
   readonly keptAt = signal(0);
   readonly onFile = signal(false);
+  /** How many files have been opened. */
+  readonly opens = signal(0);
   /** Whether the server has not answered since a question or a change that it does not have. */
   readonly gone = signal(false);
   private unkept = false;
@@ -306,6 +308,7 @@ export class Desk {
     this.keptAt.value = opened.recovered ? opened.serial / 1000 : 0;
     this.page.note.value = opened.recovered ? this.say("recovered") : "";
     this.clear();
+    this.opens.value++;
     await this.solve();
     this.drawing.value = this.session.value === null;
   }

@@ -44,6 +44,7 @@ class Work:
         self.answers: Mapping[str, Callable[[Plain], Plain]] = {
             "files": lambda asked: {"files": files.names(), "drafts": files.unsaved(), "gallery": gallery_names()},
             "folder": lambda asked: listing(files, language_of(asked)),
+            "thumbnail": self._thumbnail,
             "rename": lambda a: files.rename(text(a, "name"), text(a, "to"), text(a, "version")),
             "discard": lambda a: files.discard(text(a, "name")),
             "open": self._open,
@@ -99,6 +100,12 @@ class Work:
         if asked.get("gallery"):
             return read_source(f"gallery:{text(asked, 'gallery')}")[0]
         return str(self.files.open(text(asked, "name"))["text"])
+
+    def _thumbnail(self, asked: Plain) -> Plain:
+        """A small drawing of a file, or of a machine of the gallery."""
+        from linkwright.server.thumbnail import thumbnail
+
+        return {"strokes": list(thumbnail(self._read(asked)))}
 
     def foresee(self, name: str, language: str) -> None:
         """Begins to solve a file that a window will ask for first: the browser is opened meanwhile."""

@@ -6,6 +6,8 @@ import re
 
 from tests.unit.page import thumbnails
 
+from linkwright.server.thumbnail import SIZE
+
 
 def test_drawings_of_machines_are_those_of_the_gallery() -> None:
     """``python -m tests.unit.page.thumbnails`` writes them again."""
@@ -17,5 +19,5 @@ def test_drawings_stay_within_their_cards() -> None:
         for style, path in thumbnails.strokes(name, thumbnails.MACHINES[name]):
             if style in ("bar", "plate"):
                 for x, y in re.findall(r"[ML]([\d.-]+) ([\d.-]+)", path):
-                    assert 0 <= float(x) <= thumbnails.SIZE[0]
-                    assert 0 <= float(y) <= thumbnails.SIZE[1]
+                    assert 0 <= float(x) <= SIZE[0]
+                    assert 0 <= float(y) <= SIZE[1]

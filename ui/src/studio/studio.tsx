@@ -40,6 +40,11 @@ function Room({ bench }: { bench: Bench }) {
     document.title = `${titleOf(bench)} – Linkwright`;
     if (desk.name.value) remember({ file: desk.name.value, lang: language });
   }, [language, desk.name.value, desk.onFile.value]);
+  useLayoutEffect(() => {
+    // Another file: nothing of the one before is selected or in hand; what is drawn already is moved first.
+    bench.select();
+    if (/^links:/m.test(desk.text.value)) bench.tool.value = "move";
+  }, [desk.opens.value]);
   const { settings, layout } = bench, [wide, tall] = useWindow(), large = layout.value === "large", { slim } = settings.value;
   const inspector = sized(settings.value.inspector, wide, large, INSPECTOR), dock = sized(settings.value.dock, tall, large, DOCK);
   const style = { "--inspector": `${inspector}px`, "--dock": `${bench.dock.value ? dock : SHUT}px` };

@@ -7,6 +7,7 @@ import { DialogFrame } from "./dialog";
 import { Icon } from "./icons";
 import { fits } from "./search";
 import type { IconName } from "./signs";
+import { Thumb } from "./thumbs";
 import { when } from "./when";
 
 export type Part = "drafts" | "files" | "gallery";
@@ -37,6 +38,8 @@ interface Row {
   title: string;
   note: string;
   time: string;
+  /** What its small drawing is of. */
+  machine: { name?: string; gallery?: string };
   open: () => void;
   discard?: () => void;
 }
@@ -45,11 +48,11 @@ function rows(bench: Bench, folder: Folder, part: Part, discard: (name: string) 
   const { desk, page } = bench, time = (at: number) => when(at, page.language.value, bench.say);
   if (part === "drafts")
     return folder.drafts.map((each) => ({
-      key: each.name, title: draftTitle(each), note: draftNote(bench, each), time: time(each.time), open: () => void desk.open({ name: each.name }),
+      key: each.name, title: draftTitle(each), note: draftNote(bench, each), time: time(each.time), machine: { name: each.name }, open: () => void desk.open({ name: each.name }),
       discard: each.name === desk.name.value ? undefined : () => discard(each.name),
     }));
-  if (part === "files") return folder.files.map((each) => ({ key: each.name, title: each.name, note: "", time: time(each.time), open: () => void desk.open({ name: each.name }) }));
-  return folder.gallery.map(({ name, title, purpose }) => ({ key: name, title, note: purpose, time: "", open: () => void desk.open({ gallery: name }) }));
+  if (part === "files") return folder.files.map((each) => ({ key: each.name, title: each.name, note: "", time: time(each.time), machine: { name: each.name }, open: () => void desk.open({ name: each.name }) }));
+  return folder.gallery.map(({ name, title, purpose }) => ({ key: name, title, note: purpose, time: "", machine: { gallery: name }, open: () => void desk.open({ gallery: name }) }));
 }
 
 export function OpenDialog({ bench, part }: { bench: Bench; part?: Part }) {
@@ -91,10 +94,11 @@ export function OpenDialog({ bench, part }: { bench: Bench; part?: Part }) {
             </button>
           ))}
         </div>
-        <ul class="rows" ref={list}>
+        <ul class={shown === "gallery" ? "rows cards" : "rows"} ref={list}>
           {found.map((row) => (
             <li key={row.key}>
               <button class="row-open" onClick={() => open(row)} aria-current={row.key === bench.desk.name.value ? "true" : undefined}>
+                <Thumb bench={bench} id={`${shown} ${row.key} ${row.time}`} machine={row.machine} />
                 <b>{row.title}</b><span>{row.time}</span>{row.note && <small>{row.note}</small>}
               </button>
               {row.discard && (asked === row.key

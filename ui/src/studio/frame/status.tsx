@@ -4,6 +4,7 @@ import { useEffect, useRef } from "preact/hooks";
 import type { Bench, Settings } from "../bench";
 import { FULL } from "../sheet/camera";
 import { spacing } from "../sheet/grid";
+import { spoken } from "../sheet/names";
 import { Square } from "./controls";
 import { Icon } from "./icons";
 import { type Choices, MenuButton } from "./menu";
@@ -35,11 +36,13 @@ export function Said({ bench, brief }: { bench: Bench; brief?: boolean }) {
   const gap = bench.gap.value, empty = outline !== undefined && !Object.keys(outline.entries.links ?? {}).length;
   const errors = !empty && findings.some(({ severity }) => severity === "error");
   const words = note || gap?.title || (structure?.headline ?? (empty ? bench.say("status.empty") : sentence));
+  const item = bench.one, scene = bench.sheet.value?.scene, chosen = !brief && item && scene ? spoken(bench, scene, item) : "";
   const sign = note ? "info" : empty ? null : gap || errors ? "alert" : structure ? "check" : null;
   return (
     <p class={`said ${sign ?? ""}`} role="status" hidden={brief && !note && !gap}>
       {sign && <Icon name={sign} size={15} />}
       <span>{words}</span>
+      {chosen && <span class="chosen" aria-hidden="true">{chosen}</span>}
     </p>
   );
 }

@@ -84,9 +84,9 @@ export function First({ board }: { board: Board }) {
   );
 }
 
-type Stroke = [style: string, d: string];
+export type Stroke = [style: string, d: string];
 
-function Strokes({ strokes, size: [w, h] }: { strokes: Stroke[]; size: Vec }) {
+export function Strokes({ strokes, size: [w, h] }: { strokes: Stroke[]; size: Vec }) {
   return <svg class="strokes" viewBox={`0 0 ${w} ${h}`} width={w} height={h} aria-hidden="true">{strokes.map(([style, d], k) => <path key={k} class={style} d={d} />)}</svg>;
 }
 
