@@ -175,7 +175,7 @@ INSPECTOR: dict[str, Message] = {
     "insp.key_touch": pgettext("inspector", "Touches by"),
     "insp.key_base_radius": pgettext("inspector", "Base radius"),
     "insp.key_roller_radius": pgettext("inspector", "Roller radius"),
-    "insp.key_turn": pgettext("inspector", "Turns"),
+    "insp.key_turn": _("Sense of turn"),
     "insp.key_closure": pgettext("inspector", "Kept by"),
     "insp.key_stiffness": pgettext("inspector", "Stiffness"),
     "insp.key_free_length": pgettext("inspector", "Free length"),

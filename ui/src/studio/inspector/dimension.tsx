@@ -1,7 +1,7 @@
 // A dimension that drives the drawing: its value, what tolerance it is made to, its sweep.
 import type { Bench } from "../bench";
 import { put, set } from "./change";
-import { addressPath, at, itemOf, word } from "./entries";
+import { addressPath, at, itemOf, pathOf, word } from "./entries";
 import { Act, Chips, Quantity } from "./fields";
 import { Head, Written } from "./head";
 import { rangeOf } from "./hand";
@@ -19,7 +19,7 @@ export function DimensionPanel({ bench, item, entries }: PanelProps) {
         {owner && <Chips label={say("insp.belongs")} names={[owner.name]} symbols={owner.kind === "point"} pick={() => bench.select(owner)} />}
       </div>
       {known && <div class="row-acts"><Act icon="sweep" act={() => sweep(bench, name)}>{say("insp.sweep")}</Act></div>}
-      <Written bench={bench} path={path} />
+      <Written bench={bench} path={owner ? pathOf(entries, owner) : path} />
     </>
   );
 }

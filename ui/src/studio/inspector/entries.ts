@@ -72,19 +72,23 @@ export function pathOf(entries: Table, item: Item): Path | null {
   }
 }
 
-/** Where a dimension stands in the text, by its address ("crank.length", "frame.O1.x"); null: nowhere. */
+/** Where a dimension stands in the text, by its address ("crank.length", "frame.O1.x", "loads.work.components.y"); null: nowhere. */
 export function addressPath(entries: Table, address: string): Path | null {
-  const [first, second, third] = address.split(".");
-  const axis = { x: 0, y: 1 }[third ?? second] ?? 0;
-  if (!second) return first in table(entries.parameters) ? ["parameters", first] : null;
-  const paths: Path[] = [
-    ["links", first, second], ["links", first, "lengths", Number(second.replace(/^\D*/, "")) - 1], ["joints", first, second],
-    ["frame", "points", second, axis], ["links", first, "also", second, axis], ["links", first, "points", second, axis], ["drivers", first, second],
-  ];
-  if (first === "gravity") return ["gravity", axis];
-  if (first === "frame") return at(entries, ...paths[3]) === undefined ? null : paths[3];
-  if (first === "loads" || (first === "driver" && second)) paths.unshift(address.split(".").map((key) => (/^\d+$/.test(key) ? Number(key) : key)));
-  return paths.find((path) => typeof at(entries, ...path) === "string") ?? null;
+  const [first, ...rest] = address.split("."), own: [Path, string[]][] = ["links", "joints", "drivers"].map((section) => [[section, first], rest]);
+  const points: [Path, string[]][] = [[["links", first, "also"], rest], [["links", first, "points"], rest], [["frame", "points"], rest]];
+  const all: [Path, string[]][] = first === "frame" ? [points[2]] : rest.length ? [[[], [first, ...rest]], ...own, ...points.slice(0, 2)] : [[["parameters"], [first]]];
+  for (const [base, keys] of all) {
+    const path = follow(entries, base, keys);
+    if (path) return path;
+  }
+  return null;
+}
+
+/** The path of keys below a base, where it leads to a value; x and y are the places of a list. */
+function follow(entries: Table, base: Path, keys: string[]): Path | null {
+  const path = [...base];
+  for (const key of keys) path.push(Array.isArray(at(entries, ...path)) ? ({ x: 0, y: 1 }[key] ?? Number(key)) : key);
+  return typeof at(entries, ...path) === "string" ? path : null;
 }
 
 /** The element that a line of the text belongs to, and that of an address in it ("links.crank.length"). */

@@ -79,7 +79,7 @@ function Finding({ bench, found }: { bench: Bench; found: Shown }) {
 
 /** The lengths of the loop that comes apart, as bars; dashed what is missing. */
 function Lengths({ gap }: { gap: Gap }) {
-  const most = Math.max(...gap.lengths.map(({ length, wanted }) => Math.max(length, wanted ?? 0))), share = (x: number) => `${(88 * x) / most}%`;
+  const most = Math.max(...gap.lengths.map(({ length, wanted }) => Math.max(length, wanted ?? 0))), share = (x: number) => `${(98 * x) / most}%`;
   return (
     <>
       <table class="loop">

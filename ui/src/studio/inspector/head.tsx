@@ -7,6 +7,8 @@ import { perform } from "./change";
 import { type Path, written } from "./entries";
 
 const NONE: string[] = [];
+/** Lines of the file that are shown. */
+const MOST = 9;
 
 interface HeadProps {
   bench: Bench;
@@ -85,5 +87,6 @@ function Name({ bench, item }: { bench: Bench; item: Item }) {
 /** What stands in the file for a path. */
 export function Written({ bench, path }: { bench: Bench; path: Path | null }) {
   const { outline } = bench.desk.solved.value, text = path && outline ? written(bench.desk.text.value, outline, path) : "";
-  return text ? <div class="written"><span>{bench.say("insp.in_file")}</span><code>{text}</code></div> : null;
+  const lines = text.split("\n"), shown = lines.length > MOST ? [...lines.slice(0, MOST), "…"] : lines;
+  return text ? <div class="written"><span>{bench.say("insp.in_file")}</span><code>{shown.join("\n")}</code></div> : null;
 }

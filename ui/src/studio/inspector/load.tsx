@@ -7,15 +7,18 @@ import { put, set, tell } from "./change";
 import { at, guideOf, type Path, pointsOf, type Table, table, word, words } from "./entries";
 import { Chips, Choice, Quantity, Row, Section, Segments, Sym } from "./fields";
 import { Head, Written } from "./head";
-import { aboutLoad, allLoads, LoadList } from "./loads_list";
+import { aboutLoad, allLoads, LoadList, sortOf } from "./loads_list";
 import { Fields, type Spec } from "./pair";
 import type { PanelProps } from "./selected";
 
 const tension: Spec = { key: "preload", label: "preload", form: "quantity", unit: "N", preset: "0" };
+const push: Spec = { key: "preload", label: "preload", form: "quantity", unit: "N" };
 const KINDS: Record<string, { icon: IconName; fields: Spec[] }> = {
   force: { icon: "force", fields: [] },
   torque: { icon: "torque", fields: [] },
   spring: { icon: "spring", fields: [{ key: "stiffness", label: "stiffness", form: "quantity", unit: "N/mm" }, { key: "free_length", label: "free_length", form: "quantity", unit: "mm", preset: "0" }, tension] },
+  gas_spring: { icon: "gas_spring", fields: [push, { key: "stiffness", label: "stiffness", form: "quantity", unit: "N/mm" }, { key: "free_length", label: "free_length", form: "quantity", unit: "mm", preset: "0" }] },
+  cylinder: { icon: "cylinder", fields: [push] },
   damper: { icon: "damper", fields: [{ key: "damping", label: "damping", form: "quantity", unit: "N·s/m" }] },
   torsion_spring: {
     icon: "torsion_spring",
@@ -29,7 +32,7 @@ const KINDS: Record<string, { icon: IconName; fields: Spec[] }> = {
 export const UNITS: Record<string, string> = { force: "N", torque: "N·m", pressure: "MPa" };
 
 export function LoadPanel({ bench, item, entries }: PanelProps) {
-  const { say } = bench, { name } = item, path: Path = ["loads", name], load = table(at(entries, ...path)), kind = word(load.kind);
+  const { say } = bench, { name } = item, path: Path = ["loads", name], load = table(at(entries, ...path)), kind = sortOf(load);
   const { icon, fields } = KINDS[kind] ?? { icon: "force" as const, fields: extras(load) }, ends = words(load.between), links = words(load.links);
   return (
     <>
@@ -106,7 +109,7 @@ function withDirection(load: Table, direction: Record<string, Entry>): Table {
 const degrees = (text: string) => Number.parseFloat(text);
 const parallel = (a: string, b: string) => a !== "" && Math.abs(Math.sin(((degrees(a) - degrees(b)) * Math.PI) / 180)) < 1e-9;
 const against = (a: string, b: string) => a !== "" && Math.cos(((degrees(a) - degrees(b)) * Math.PI) / 180) < 0;
-const turned = (angle: string) => `${((((degrees(angle) + 180 + 180) % 360) + 360) % 360) - 180 || 180} deg`;
+const turned = (angle: string) => `${180 - ((((-degrees(angle) % 360) + 360) % 360))} deg`;
 
 /** A direction by two points of its link: along their line or square to it. */
 function Ray({ bench, path, load, along, entries }: { bench: Bench; path: Path; load: Table; along: string; entries: Table }) {

@@ -10,8 +10,16 @@ const DOWN = "↓", ARROWS = ["→", "↗", "↑", "↖", "←", "↙", DOWN, "�
 /** A unit as it is shown, in a text with numbers. */
 export const shownText = (text: string) => text.replace(/\s*deg\b/g, shownUnit("deg")).replaceAll("-", "−");
 
+/** What a load is called: a spring that pushes at its free length is a gas spring, one without stiffness a cylinder. */
+export function sortOf(load: Table): string {
+  const kind = word(load.kind), push = Number.parseFloat(word(load.preload)) < 0;
+  if (kind !== "spring" || !push) return kind;
+  return Number.parseFloat(word(load.stiffness)) === 0 ? "cylinder" : "gas_spring";
+}
+
 /** The size of a load as it is written. */
 export function sizeOf(load: Table): string {
+  if (["gas_spring", "cylinder"].includes(sortOf(load))) return shownText(word(load.preload));
   const ramp = words(load.ramp);
   if (ramp.length === 2) return shownText(`${ramp[0]} … ${ramp[1]}`);
   const components = words(load.components);
@@ -20,7 +28,7 @@ export function sizeOf(load: Table): string {
 
 /** What a load is, in a line. */
 export function aboutLoad(bench: Bench, load: Table): string {
-  const { say } = bench, kind = word(load.kind), between = words(load.between), links = words(load.links);
+  const { say } = bench, kind = sortOf(load), between = words(load.between), links = words(load.links);
   if (between.length === 2 || links.length === 2) {
     const [a, b] = between.length ? between : links;
     return say(`insp.load_${kind in LINES ? kind : "other"}`, { kind, a: inWords(a), b: inWords(b) });
