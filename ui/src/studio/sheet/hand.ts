@@ -145,7 +145,7 @@ export class Hand {
       unit.className = "hand-unit";
       Object.assign(input, { type: "text", autocomplete: "off", spellcheck: false, inputMode: field.quantity === "teeth" ? "text" : "decimal", name: field.key });
       box.append(label, input, unit);
-      box.classList.toggle("first", field === fields[0]);
+      box.classList.toggle("hand-first", field === fields[0]);
       input.addEventListener("input", () => this.take(field, input.value));
       this.row.insertBefore(box, this.set);
       return { box, label, field: input, unit };

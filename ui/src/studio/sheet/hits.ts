@@ -3,22 +3,22 @@ import type { Vec } from "../../shapes";
 import { hull } from "../../strokes";
 import type { Item } from "../bench";
 import type { Camera } from "./camera";
-import { dist, inside, nearestOn } from "./geometry";
+import { dist, inside, minus, nearestOn, plus } from "./geometry";
 import { type DrawnLoad, offLoad } from "./loads";
+import type { Placed } from "./marks";
 import type { Scene } from "./scene";
 
 /** How near the pointer must come, px: a mouse, a finger. */
 export const NEAR = 10, FINGER = 22;
 // A block that slides reaches this far from its point, px.
 const BLOCK: Vec = [15, 9];
+// How near to the middle line of a text the pointer is on it, px.
+const TEXT = 9;
 // The arrow of what is driven is a part of a circle about its pivot between these radii, px.
 const DRIVER: Vec = [19, 30];
 
-/** Where a dimension's text stands on the screen, by the address of the dimension. */
-export type Marks = Map<string, Vec>;
-
 /** The elements under a place of the screen; a click takes the first, another click there the next. */
-export function under(screen: Vec, scene: Scene, camera: Camera, near: number, loads: DrawnLoad[] = [], marks: Marks = new Map()): Item[] {
+export function under(screen: Vec, scene: Scene, camera: Camera, near: number, loads: DrawnLoad[] = [], marks: Placed = new Map()): Item[] {
   const found: { rank: number; far: number; item: Item }[] = [];
   const add = (rank: number, far: number, item: Item, most = near) => {
     if (far <= most) found.push({ rank, far, item });
@@ -26,7 +26,7 @@ export function under(screen: Vec, scene: Scene, camera: Camera, near: number, l
   for (const load of loads) add(0, offLoad(screen, load), { kind: "load", name: load.name });
   for (const { name, at, fixed, links } of scene.points.values())
     add(fixed || links.length > 1 ? 1 : 2, dist(screen, camera.screen(at)), { kind: "point", name });
-  for (const [name, at] of marks) add(3, dist(screen, at) / 2, { kind: "dimension", name });
+  for (const [name, { at, half }] of marks) add(3, dist(screen, nearestOn(screen, minus(at, half), plus(at, half)).at), { kind: "dimension", name }, TEXT);
   for (const { name, at } of scene.pairs) {
     const place = at && camera.screen(at);
     if (place && Math.abs(screen[0] - place[0]) <= BLOCK[0] && Math.abs(screen[1] - place[1]) <= BLOCK[0]) add(4, dist(screen, place), { kind: "pair", name }, Infinity);

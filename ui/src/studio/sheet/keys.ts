@@ -36,6 +36,8 @@ export class Keys {
     const { board } = this, { key } = event, onSheet = document.activeElement === board.host || document.activeElement === document.body;
     if (event.ctrlKey || event.metaKey) return this.command(key.toLowerCase());
     if (key === "Escape") return this.escape();
+    // Held over the sheet it holds snaps off; it opens no menu of the browser.
+    if (key === "Alt") return board.bench.cursor.value !== null;
     if (key === "Tab" && onSheet && !event.shiftKey) return this.hand.begin();
     if (key === " ") return onSheet && this.space(event.repeat);
     if (key in WAYS) return onSheet && this.arrow(WAYS[key], event);
@@ -111,6 +113,7 @@ export class Keys {
     board.cross = to;
     if (inside(x, w) || inside(y, h)) board.pan(inside(x, w), inside(y, h));
     board.point(board.spotAt(camera.screen(to), { shiftKey: false, altKey: event.altKey }, false));
+    if (board.spot?.snap?.kind === "point") board.said.value = board.spot.snap.sentence;
   }
 
   private enter(event: KeyboardEvent): boolean {

@@ -7,11 +7,12 @@ import { dist } from "./geometry";
 import type { Pencil } from "./overlay";
 import type { Board } from "./sheet";
 
-/** Where the texts of lengths stand on the screen, by the address of the dimension. */
-export type Placed = Map<string, Vec>;
+/** Where the texts of lengths stand on the screen, by the address of the dimension: their middles and their half widths
+ *  along their lines. */
+export type Placed = Map<string, { at: Vec; half: Vec }>;
 
-// What pins take of a bar's ends; the least length of a bar with its length and its name beside it; how far these are from it, px.
-const PIN = 5.5, LEAST = 44, ASIDE = 15, OFF = 24;
+// What pins take of a bar's ends; the least length of a bar with its length and its name beside it; how far these are from it; half a letter, px.
+const PIN = 5.5, LEAST = 44, ASIDE = 15, OFF = 24, LETTER = 3.2;
 
 /** Marks under the machine and over it; gives where lengths stand. */
 export function drawMarks(board: Board, below: Pencil, above: Pencil): Placed {
@@ -21,7 +22,8 @@ export function drawMarks(board: Board, below: Pencil, above: Pencil): Placed {
   for (const { link, ends: [a, b], side, text, hand } of lengths(board)) {
     const u = along(a, b);
     above.dimension(a, b, text, hand ? "hand" : "soft", OFF * side);
-    placed.set(`${link}.length`, [(a[0] + b[0]) / 2 + OFF * side * u[1], (a[1] + b[1]) / 2 - OFF * side * u[0]]);
+    const out = OFF + 8, half = LETTER * text.length;
+    placed.set(`${link}.length`, { at: [(a[0] + b[0]) / 2 + out * side * u[1], (a[1] + b[1]) / 2 - out * side * u[0]], half: [half * u[0], half * u[1]] });
   }
   if (bench.shows("names")) linkNames(board, above);
   return placed;
@@ -75,7 +77,7 @@ export function lengths(board: Board): Length[] {
 export function inkOf(all: Length[]): number[] {
   return all.flatMap(({ ends: [a, b], side, text }) => {
     const u = along(a, b), out = ([x, y]: Vec, by: number): Vec => [x + by * side * u[1], y - by * side * u[0]], [p, q] = [out(a, OFF), out(b, OFF)];
-    const middle = out([(a[0] + b[0]) / 2, (a[1] + b[1]) / 2], OFF + 8), half = 3.2 * text.length;
+    const middle = out([(a[0] + b[0]) / 2, (a[1] + b[1]) / 2], OFF + 8), half = LETTER * text.length;
     return [...p, ...q, ...out(a, 9), ...p, ...out(b, 9), ...q, middle[0] - half * u[0], middle[1] - half * u[1], middle[0] + half * u[0], middle[1] + half * u[1]];
   });
 }

@@ -64,8 +64,7 @@ export function mirror(board: Board): boolean {
 async function put(board: Board, items: Item[], shift: Vec, about?: "x" | "y"): Promise<void> {
   const made = await board.act([{ do: "paste", items, shift, ...(about ? { mirror: about } : {}) }]);
   if (!made) return;
-  const { scene } = board;
-  board.bench.select(...made.flatMap((name): Item[] => (name in scene.links ? [{ kind: "link", name }] : scene.points.has(name) ? [{ kind: "point", name }] : name in scene.loads ? [{ kind: "load", name }] : [])));
+  board.bench.select(...made.map((name) => board.item(name)).filter((each) => each !== null));
 }
 
 /** The points of elements. */

@@ -85,6 +85,7 @@ export class Board implements Sheet {
       void [bench.session.value?.version.value, page.phase.value, page.playing.value, bench.settings.value, desk.text.value, page.language.value];
       const { picture, model, text } = desk.solved.value;
       if (!picture && !model && text === undefined) this.fitting = true;
+      if (picture && text === desk.text.value) this.prune(picture);
       if (Object.keys(picture?.links ?? {}).join() !== [...this.sides.keys()].join()) this.sides.clear();
       this.touch();
     });
@@ -92,6 +93,15 @@ export class Board implements Sheet {
       void [bench.selection.value, bench.hovered.value];
       this.redraw();
     });
+  }
+
+  /** What is gone is not selected any more. */
+  private prune({ points, links, loads }: Picture): void {
+    const { selection } = this.bench, of: Partial<Record<Item["kind"], Set<string>>> = {
+      point: new Set([...Object.keys(points), ...Object.values(links).flat()]), link: new Set(Object.keys(links)), load: new Set(Object.keys(loads)),
+    };
+    const left = selection.peek().filter(({ kind, name }) => of[kind]?.has(name) ?? true);
+    if (left.length < selection.peek().length) selection.value = left;
   }
 
   private follow(work: () => void): void {
@@ -391,7 +401,18 @@ export class Board implements Sheet {
     if (made) bench.set({ used: { ...bench.settings.value.used, [tool.name]: (bench.settings.value.used[tool.name] ?? 0) + 1 } });
     else if (page.note.value) this.say(page.note.value);
     this.touch();
+    // Who draws by the cross hears what has been made.
+    const last = this.cross && made?.map((name) => this.item(name)).findLast((each) => each !== null);
+    if (last) this.speak(last);
     return made;
+  }
+
+  /** The element of a name. */
+  item(name: string): Item | null {
+    const { scene } = this;
+    if (name in scene.links) return { kind: "link", name };
+    if (scene.points.has(name)) return { kind: "point", name };
+    return name in scene.loads ? { kind: "load", name } : null;
   }
 
   /** Where points are drawn that the text gives no places. */

@@ -11,19 +11,24 @@ const PIN = 5, POINT = 2.8;
 
 export class Sketch {
   readonly svg: SVGElement;
+  private readonly layers: Record<string, SVGElement>;
+  private names: Names | null = null;
+  private labelled = "";
 
   constructor(host: HTMLElement, private readonly symbols: Record<string, string>) {
     this.svg = element("svg", { class: "machine sketch", "aria-hidden": "true" }, host);
+    this.layers = Object.fromEntries(LAYERS.map((name) => [name, element("g", { class: `lw-${name}` }, this.svg)]));
   }
 
   clear(): void {
-    if (this.svg.firstChild) this.svg.replaceChildren();
+    for (const each of Object.values(this.layers)) if (each.firstChild) each.replaceChildren();
+    this.labelled = "";
   }
 
   /** All of a picture, or what another one has not; `taken`: strokes which names keep clear of, too. */
   draw(scene: Scene, camera: Camera, names: boolean, known: Picture | null, taken: number[]): void {
-    this.svg.replaceChildren();
-    const layer = Object.fromEntries(LAYERS.map((name) => [name, element("g", { class: `lw-${name}` }, this.svg)]));
+    const layer = this.layers;
+    for (const name of LAYERS) if (name !== "names") layer[name].replaceChildren();
     const ink = [...taken], [w, h] = camera.size, labelled: string[] = [];
     const inked = (corners: Vec[]) => corners.forEach((corner, k) => k && ink.push(...corners[k - 1], ...corner));
     for (const name of Object.keys(scene.links)) {
@@ -52,7 +57,14 @@ export class Sketch {
       inked([[x - 5, y - 5], [x + 5, y + 5], [x - 5, y + 5], [x + 5, y - 5]]);
       labelled.push(name);
     }
-    if (names && labelled.length) new Names(labelled, layer.names).write((name) => camera.screen(scene.at(name)!), ink, 1, w, h);
+    // Names stay where they are while the points are the same.
+    const shown = names ? labelled.join() : "";
+    if (shown !== this.labelled) {
+      layer.names.replaceChildren();
+      this.names = shown ? new Names(labelled, layer.names) : null;
+    }
+    this.labelled = shown;
+    this.names?.write((name) => camera.screen(scene.at(name)!), ink, 1, w, h);
   }
 }
 

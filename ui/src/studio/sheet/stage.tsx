@@ -50,8 +50,10 @@ export function Stage({ bench }: { bench: Bench }) {
 
 /** The next step in a sentence; keys stand in brackets in it. */
 function Hint({ board }: { board: Board }) {
-  const text = board.hint.value;
-  if (!text) return null;
+  const { bench, hint } = board, parts = hint.value.split(/(?<=[.。；;])\s*/), plain = parts.filter((part) => !part.includes("["));
+  if (!hint.value) return null;
+  // On a phone there are no keys.
+  const text = bench.layout.value === "phone" && plain.length ? plain.join(" ") : hint.value;
   return <p class="hint">{text.split(/(\[[^\]]+\])/).map((part, k) => (part.startsWith("[") ? <kbd key={k}>{part.slice(1, -1)}</kbd> : part))}</p>;
 }
 
