@@ -20,7 +20,6 @@ DOCK: dict[str, Message] = SYNTHESIS | {
     "dock.turn_help": _("The input turns through, or goes from its first position to its last."),
     "dock.rock": pgettext("dock", "Rock"),
     "dock.rock_help": _("The input goes to and fro between the limits of the machine."),
-    "dock.cycle_of": _("a cycle of {time}"),
     "dock.speed_of": _("{speed} of {own}"),
     "dock.loop": _("Play again and again"),
     "dock.input": _("Input {name}: type a value to go there"),

@@ -6,6 +6,7 @@ import type { Session } from "../../session";
 import { put } from "../../strokes";
 import { digits, quantity } from "../../words";
 import type { Bench } from "../bench";
+import type { Gap } from "../outline";
 import { Icon } from "../frame/icons";
 import { course, limits, outside, pace, phaseOf, phases, type Stretch, ticks, ticksOf, typed } from "./timeline";
 
@@ -83,7 +84,7 @@ function Cycle({ bench }: { bench: Bench }) {
 
 function Speed({ bench, session }: { bench: Bench; session: Session }) {
   const { page } = bench, { rpm, seconds } = pace(session.data);
-  const own = rpm !== null ? `${digits(rpm, 4)} rpm` : seconds !== null ? bench.say("dock.cycle_of", { time: quantity(seconds, "time", 1, 3) }) : "";
+  const own = bench.layout.value === "phone" ? "" : rpm !== null ? `${digits(rpm, 4)} rpm` : seconds !== null ? quantity(seconds, "time", 1, 2) : "";
   const said = (each: number) => (own ? bench.say("dock.speed_of", { speed: `${each}×`, own }) : `${each}×`);
   return (
     <>
@@ -129,11 +130,11 @@ function Track({ labels, pieces, marks, children, ...rest }: {
 function Transport({ bench, session }: { bench: Bench; session: Session }) {
   const { page } = bench, { model, data } = session, turns = data.positions.inputs[0]?.turns ?? true;
   void [session.calm.value, page.language.value];
-  const [values] = useState(() => course(session)), size = Math.max(...values.map(Math.abs)) || 1;
+  const [values] = useState(() => course(session)), stuck = bench.gap.value?.possible.length ? bench.gap.value : null, range = stuck && rangeOf(stuck), size = Math.max(...values.map(Math.abs)) || 1;
   const thumb = useRef<HTMLDivElement>(null), field = useRef<HTMLInputElement>(null), name = data.positions.inputs[0]?.name ?? "";
   useLayoutEffect(() => effect(() => {
     const i = page.index(session), share = page.phase.value, text = shown(model.solver.inputs[i], turns, size);
-    thumb.current!.style.left = `${(100 * share).toFixed(3)}%`;
+    thumb.current!.style.left = `${(100 * (range ? range.share(model.solver.inputs[i]) : share)).toFixed(3)}%`;
     const slider = thumb.current!.parentElement!;
     put(slider, "aria-valuenow", share.toFixed(4));
     put(slider, "aria-valuetext", text);
@@ -150,7 +151,8 @@ function Transport({ bench, session }: { bench: Bench; session: Session }) {
       host.setPointerCapture(event.pointerId);
       host.focus();
     }
-    go((event.clientX - box.left) / box.width);
+    const share = (event.clientX - box.left) / box.width, phase = range ? phaseNear(values, range.low + share * (range.high - range.low), turns, page.phase.value) : share;
+    go(phase);
   };
   const key = (event: KeyboardEvent) => {
     const step = KEYS[event.key], count = data.positions.closed ? data.positions.count : data.positions.count - 1;
@@ -167,8 +169,9 @@ function Transport({ bench, session }: { bench: Bench; session: Session }) {
       field.current!.value = shown(model.solver.inputs[page.index(session)], turns, size);
     } else go(phase);
   };
-  const acts = phases(session).flatMap(({ load, stretches }) => stretches.map((each) => ({ ...each, style: "acts", name: bench.say("dock.acts", { name: load }) })));
+  const acts = phases(session).flatMap(({ load, stretches }) => stretches.map(({ from, to }) => ({ from, to, style: "acts", name: bench.say("dock.acts", { name: load }) })));
   const ends = limits(session).map(({ share, name: output, max }) => ({ share, text: bench.say(max ? "dock.max" : "dock.min", { name: output }) }));
+  const shownOn = stuck && range ? partsOf(bench, stuck, range) : { labels: ticksOf(values, turns).map(({ share, value }) => ({ share, text: tick(value, turns, size) })), pieces: acts, marks: ends };
   const playing = page.playing.value;
   return (
     <>
@@ -188,7 +191,7 @@ function Transport({ bench, session }: { bench: Bench; session: Session }) {
       <Track
         role="slider" tabIndex={0} aria-label={page.say("position")} aria-valuemin={0} aria-valuemax={1} aria-valuenow={0}
         onPointerDown={drag} onPointerMove={drag} onKeyDown={key}
-        labels={ticksOf(values, turns).map(({ share, value }) => ({ share, text: tick(value, turns, size) }))} pieces={acts} marks={ends}
+        {...shownOn}
       >
         <div class="thumb" ref={thumb} />
       </Track>
@@ -198,16 +201,49 @@ function Transport({ bench, session }: { bench: Bench; session: Session }) {
   );
 }
 
-/** The time line of a machine that cannot be assembled all the way: where it can be, and a way to move it there. */
-function Stuck({ bench }: { bench: Bench }) {
-  const { desk, page } = bench, gap = bench.gap.value!, turns = gap.unit === "deg", factor = turns ? DEGREE : 1e-3;
-  const possible = gap.possible.map(([a, b]): [number, number] => [a * factor, b * factor]), ends = possible.flat();
-  const wide = ends.length ? Math.max(...ends) - Math.min(...ends) : 0, middle = ends.length ? (Math.max(...ends) + Math.min(...ends)) / 2 : 0;
+/** What the track of a machine that cannot be everywhere runs over. */
+interface Range {
+  low: number;
+  high: number;
+  turns: boolean;
+  possible: [number, number][];
+  share: (x: number) => number;
+}
+
+function rangeOf(gap: Gap): Range {
+  const turns = gap.unit === "deg", factor = turns ? DEGREE : 1e-3, possible = gap.possible.map(([a, b]): [number, number] => [a * factor, b * factor]), ends = possible.flat();
+  const most = Math.max(...ends, -Infinity), least = Math.min(...ends, Infinity), wide = ends.length ? most - least : 0, middle = ends.length ? (most + least) / 2 : 0;
   const [low, high] = turns ? (ends.some((x) => Math.abs(x) > HALF) ? [0, 2 * HALF] : [-HALF, HALF]) : [middle - (wide || 0.1), middle + (wide || 0.1)];
-  const size = Math.max(Math.abs(low), Math.abs(high)), here = typed(gap.input, turns), share = (x: number) => (x - low) / (high - low);
   const lap = (x: number) => (turns ? x - 2 * HALF * Math.floor((x - low) / (2 * HALF)) : x);
+  return { low, high, turns, possible, share: (x) => Math.min(1, Math.max(0, (lap(x) - low) / (high - low))) };
+}
+
+/** Where the machine can be, and where not. */
+function partsOf(bench: Bench, gap: Gap, { low, high, turns, possible }: Range) {
+  const size = Math.max(Math.abs(low), Math.abs(high)), share = (x: number) => (x - low) / (high - low), factor = turns ? DEGREE : 1e-3;
   const able = possible.map(([a, b]) => ({ from: Math.max(0, share(a)), to: Math.min(1, share(b)), style: "able", name: bench.say("dock.possible") }));
   const barred = outside(possible, low, high).map(({ from, to }) => ({ from, to, style: "barred" }));
+  return {
+    labels: ticks(low, high, turns).map((each) => ({ share: each.share, text: tick(each.value, turns, size) })), pieces: [...able, ...barred],
+    marks: gap.possible.flat().map((x) => ({ share: share(x * factor), text: turns ? `${digits(x, 2)}°` : `${digits(x, 3)} mm` })).filter((each) => each.share > 0.001 && each.share < 0.999),
+  };
+}
+
+/** The phase at which the input has a value, or the nearest one that it has. */
+function phaseNear(values: Float64Array, value: number, turns: boolean, now: number): number {
+  const found = phaseOf(values, value, turns, now);
+  if (found !== null) return found;
+  let best = 0;
+  const off = (x: number) => (turns ? Math.abs(Math.atan2(Math.sin(x - value), Math.cos(x - value))) : Math.abs(x - value));
+  values.forEach((x, i) => {
+    if (off(x) < off(values[best])) best = i;
+  });
+  return best / (values.length - 1);
+}
+
+/** The time line of a machine that cannot be assembled where it is drawn: where it can be, and a way to move it there. */
+function Stuck({ bench }: { bench: Bench }) {
+  const { desk, page } = bench, gap = bench.gap.value!, range = rangeOf(gap), { turns, possible } = range, here = typed(gap.input, turns), size = Math.max(Math.abs(range.low), Math.abs(range.high));
   const rock = async () => {
     if (!rocks(bench)) await desk.act([{ do: "set", path: ["cycle"], value: "rock" }]);
     await desk.solve();
@@ -217,12 +253,8 @@ function Stuck({ bench }: { bench: Bench }) {
     <>
       <button class="play" disabled={!possible.length} aria-label={page.say("play")} title={bench.say("dock.rock_help")} onClick={() => void rock()}><Icon name="play" /></button>
       <output class="at">{here === null ? "–" : shown(here, turns, size)}</output>
-      <Track
-        role="img" aria-label={bench.say("dock.possible_between", { ranges: possible.map((each) => each.map((x) => tick(x, turns, size)).join(" … ")).join(", ") || "–" })}
-        labels={ticks(low, high, turns).map((each) => ({ share: each.share, text: tick(each.value, turns, size) }))} pieces={[...able, ...barred]}
-        marks={possible.flat().filter((x) => share(x) > 0.001 && share(x) < 0.999).map((x) => ({ share: share(x), text: tick(Number((x / factor).toPrecision(4)) * factor, turns, size) }))}
-      >
-        {here !== null && <div class="thumb" style={at(Math.min(1, Math.max(0, share(lap(here)))))} />}
+      <Track role="img" aria-label={bench.say("dock.possible_between", { ranges: gap.possible.map((each) => each.map((x) => `${digits(x, 3)}${turns ? "°" : " mm"}`).join(" … ")).join(", ") || "–" })} {...partsOf(bench, gap, range)}>
+        {here !== null && <div class="thumb" style={at(range.share(here))} />}
       </Track>
       <Cycle bench={bench} />
     </>
