@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 Places = Mapping[str, complex]
 #: A condition is met within this share of the drawing's size; steps of Newton's method; other starts that are tried.
-MET, STEPS, STARTS = 1e-6, 60, 12
+MET, STEPS, STARTS = 1e-6, 60, 6
 #: Points that are to stay near move so many times less than others.
 HOLD = 0.05
 #: A link agrees with its drawing within so many steps of its coordinates, or this share of its length.
@@ -140,10 +140,10 @@ def _heading(shape: Shape) -> complex:
 
 
 def nearest(
-    wanted: list[Condition], places: Places, free: Collection[str], near: Collection[str] = ()
+    wanted: list[Condition], places: Places, free: Collection[str], near: Collection[str] = (), starts: int = STARTS
 ) -> dict[str, complex] | None:
     """The places of free points nearest to those given, of ``near`` ones above all, that meet the conditions; None
-    where there are none."""
+    where Newton's method finds none, from there or so many other ``starts``."""
     names = [each for each in places if each in free]
     wanted = [each for each in wanted if not set(names).isdisjoint(each.points)]
     size = max((abs(a - b) for a in places.values() for b in places.values()), default=0.0) or 1.0
@@ -159,7 +159,7 @@ def nearest(
     found = _newton(off, start, size)
     if found is None:
         rng = np.random.default_rng(0)
-        tried = (_newton(off, start + 0.5 * size * rng.normal(size=start.size), size) for _ in range(STARTS))
+        tried = (_newton(off, start + 0.5 * size * rng.normal(size=start.size), size) for _unused in range(starts))
         found = min((each for each in tried if each is not None), key=lambda x: _distance(x, start), default=None)
     return None if found is None else dict(zip(names, (found * ease).view(complex).tolist(), strict=True))
 
@@ -209,11 +209,12 @@ def agree(draft: Draft, new: Collection[str] = (), excused: Collection[str] = ()
     at = {name: complex(*place) for name, place in shown["points"].items()}
     movable = [name for name in at if name not in shown["fixed"]]
     fresh = [name for name in movable if name in new]
-    for held in (wanted, [each for each in wanted if each.link not in excused]) if excused else (wanted,):
+    left = [each for each in wanted if each.link not in excused]
+    for held, starts in ((wanted, 0), (left, STARTS)) if excused else ((wanted, STARTS),):
         if _agrees(draft, held, at):
             return
         for free in (fresh, movable):
-            found = nearest(held, at, free)
+            found = nearest(held, at, free, starts=starts)
             if found and _agrees(draft, held, {**at, **found}):
                 move(draft, at, found)
                 return

@@ -9,7 +9,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.server import request
 from linkwright.server.agreement import conditions, nearest
 from linkwright.server.draft import Draft
-from linkwright.server.entries import fresh, section
+from linkwright.server.entries import fresh
 from linkwright.server.references import references
 from linkwright.server.removing import remove_drives, take_fixed
 from linkwright.server.sizes import remeasure
@@ -116,6 +116,6 @@ def fix(draft: Draft, action: Mapping[str, Any]) -> str | None:
         )
     driven = remove_drives(draft, name)
     take_fixed(draft, name)
-    if any(name in points for points in draft.picture()["links"].values()) or section(draft.root, "drawing"):
+    if any(name in points for points in draft.picture()["links"].values()):
         draft.draw(name, at, fixed=False)
     return _("The drive about it is gone as well.", code="studio.drive_gone") if driven else None

@@ -18,7 +18,7 @@ from linkwright.server.entries import texts, word
 from linkwright.server.geometry import Values, heading, shape
 from linkwright.server.links import fresh_link
 from linkwright.server.references import points_of_entry, references, scalars
-from linkwright.server.removing import take_fixed
+from linkwright.server.removing import remove_drives, take_fixed
 from linkwright.server.sizes import angle, remeasure
 from linkwright.units import number
 from linkwright.words import _
@@ -35,7 +35,8 @@ def merge(draft: Draft, action: Mapping[str, Any]) -> None:
     draft.where(source)
     draft.where(target)
     both = [name for name, points in draft.picture()["links"].items() if {source, target} <= {*points}]
-    if source == target or both:
+    slots = [joint for _unused, joint in draft.section("joints") or () if isinstance(joint, MappingNode)]
+    if source == target or both or any({source, target} == {word(j, "at"), word(j, "through")} for j in slots):
         raise LinkwrightError(
             _("{from_} and {into} are points of one link", code="studio.one_link", from_=source, into=target)
         )
@@ -87,6 +88,8 @@ def weld(draft: Draft, action: Mapping[str, Any]) -> None:
         raise LinkwrightError(
             _("there are no two links with a drawn direction at {point}", code="studio.no_weld", point=point)
         )
+    if "frame" in ways:
+        remove_drives(draft, point)
     first, *others = ways
     for other in others:
         turn = angle(cmath.phase(ways[other] / ways[first]))

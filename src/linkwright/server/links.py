@@ -11,7 +11,7 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.files.write import flow
 from linkwright.server import request
 from linkwright.server.draft import Draft, coordinates, length
-from linkwright.server.drawn import new_point, put_point
+from linkwright.server.drawn import all_points, new_point, put_point
 from linkwright.server.entries import fresh, texts
 from linkwright.server.forms import link_entry
 from linkwright.server.geometry import Values, heading, shape
@@ -47,8 +47,10 @@ def put_link(draft: Draft, name: str, points: list[str], sides: list[str | None]
     if len(set(points)) < len(points):
         raise LinkwrightError(_("a link has each of its points once", code="studio.point_twice"))
     draft.complete(points)
-    known = draft.picture()["points"]
+    known, there = draft.picture()["points"], all_points(draft)
     for point in points:
+        if point not in there:
+            draft.where(point)
         if point not in known and point in draft.shown()["points"]:
             put_point(draft, point, draft.where(point))
     if name not in draft.picture()["links"]:
@@ -81,13 +83,13 @@ def add_point(draft: Draft, action: Mapping[str, Any]) -> None:
     if sized is None:
         draft.write(entry.get("points") or entry, flow([*texts(entry.get("points")), point]))
         return
+    for each in known[:2]:
+        draft.where(each)
     turned = heading(draft.root, name, at)
     if turned is None and len(known) == 1:
         draft.put("links", name, {"points": [*known, point]})
         _give_length(draft, name, at, known[0], point)
         return
-    if turned is None:
-        draft.where(next(each for each in known if each not in at))
     base = next(iter(sized.points))
     local = (at[point] - at[base]) / (turned or 1.0) + sized.points[base]
     _put_coordinates(draft, name, point, coordinates(local, draft.step))

@@ -9,12 +9,12 @@ from typing import Any
 from linkwright.errors import LinkwrightError, with_remedy
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
-from linkwright.files.model_file import read_text
 from linkwright.files.node_reader import NAME
 from linkwright.files.write import flow
 from linkwright.server import request
 from linkwright.server.draft import Draft
 from linkwright.server.drawn import all_points
+from linkwright.server.values import errors
 from linkwright.words import _
 
 #: Names that drawing gives to links.
@@ -64,7 +64,7 @@ KINDS = {"link": "links", "pair": "joints", "load": "loads", "driver": "drivers"
 
 def change(draft: Draft, what: str, old: str, new: str) -> None:
     """Writes another name wherever one is mentioned; raises LinkwrightError where the text is worse for it."""
-    before, errors = draft.text, len(_errors(draft.text))
+    before, known = draft.text, len(errors(draft.text))
     if what == "driver" and old == "driver" and (alone := draft.section("driver")) is not None:
         entry = draft.text[alone.start : alone.end].strip()
         draft.cut_top("driver")
@@ -78,14 +78,10 @@ def change(draft: Draft, what: str, old: str, new: str) -> None:
     spots = {node.start: (node, text) for node, text in _mentions(draft, what, old, new)}
     for node, text in sorted(spots.values(), key=lambda each: -each[0].start):
         draft.write(node, flow(text))
-    now = _errors(draft.text)
-    if len(now) > errors:
+    now = errors(draft.text)
+    if len(now) > known:
         draft.text = before
         raise LinkwrightError(with_remedy(now[0].message, now[0].remedy))
-
-
-def _errors(text: str) -> list[Any]:
-    return [each for each in read_text(text, "model")[1] if each.severity == "error"]
 
 
 def _mentions(draft: Draft, what: str, old: str, new: str) -> Iterator[tuple[Scalar, str]]:

@@ -20,6 +20,7 @@ from linkwright.server.entries import word
 from linkwright.server.links import fresh_block, put_link
 from linkwright.server.naming import by_function
 from linkwright.server.outline import outlined
+from linkwright.server.values import accept, errors
 from linkwright.units import number
 from linkwright.words import _
 
@@ -33,6 +34,9 @@ TEETH = re.compile(r"\s*([1-9][0-9]{0,5})\s*[:：]\s*([1-9][0-9]{0,5})\s*")
 _NO_SLOT = _("{name!r} is not a link with two drawn points along which something could slide", code="studio.no_slot")
 
 
+_NO_GEARS = _(
+    "{links} cannot mesh: each needs a fixed point to turn about, or a pin on one common arm", code="studio.no_gears"
+)
 _NOT_DRIVEN = _(
     "{name!r} cannot be driven: it needs a fixed point to turn about, or a guide to slide along",
     code="studio.no_drive",
@@ -55,8 +59,9 @@ def driver(draft: Draft, action: Mapping[str, Any]) -> None:
         (key for key, joint in _slides(draft).items() if link in (word(joint, "block"), word(joint, "guide"))), None
     )
     if "about" in action or pin is not None:
-        about = request.name(action, "about") if "about" in action else pin
+        about, before = request.name(action, "about") if "about" in action else pin, draft.text
         _drive(draft, {"turn": link, "about": about, "speed": TURNING})
+        accept(draft, before, ["driver"])
         by_function(draft)
     elif slide is not None:
         _drive(draft, {"slide": slide, "speed": SLIDING})
@@ -132,7 +137,15 @@ def gear(draft: Draft, action: Mapping[str, Any]) -> None:
             _("invalid numbers of teeth {text!r}; write them as 20:40", code="studio.no_teeth", text=text)
         )
     links = request.names(action, "links")
+    for each in links:
+        draft.link(each)
+    if len(set(links)) != 2:
+        raise LinkwrightError(_NO_GEARS.format(links=tuple(links)))
     entry = {"kind": GearPair.kind, "links": links, "teeth": [int(z) for z in teeth.groups()]}
     if action.get("inside"):
         entry["mesh"] = "internal"
-    draft.put_new("joints", "mesh", entry)
+    before = draft.text
+    name = draft.put_new("joints", "mesh", entry)
+    if any(each.key.startswith(f"joints.{name}") and each.code == "reference" for each in errors(draft.text)):
+        draft.text = before
+        raise LinkwrightError(_NO_GEARS.format(links=tuple(links)))

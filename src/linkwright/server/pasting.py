@@ -126,7 +126,7 @@ def paste(draft: Draft, action: Mapping[str, Any]) -> None:
     shown = draft.picture()
     points = list(dict.fromkeys(point for link in links for point in shown["links"][link]))
     chosen = [request.name(item, "name") for item in items if item.get("kind") == "point"]
-    points += [name for name in dict.fromkeys(chosen) if name in shown["points"] and name not in points]
+    points += [name for name in dict.fromkeys(chosen) if name in shown["fixed"] and name not in points]
     inside = [(key, each) for key, each in draft.section("joints") or () if _within(each, draft, links)]
     loads = [each for _unused, each in draft.section("loads") or () if _within(each, draft, links)]
     for _unused, joint in inside:

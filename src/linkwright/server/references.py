@@ -9,7 +9,7 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.joints.base import JOINTS
 from linkwright.server.draft import Draft
-from linkwright.server.entries import word
+from linkwright.server.entries import texts, word
 
 #: Keys of joints and loads whose words are no links.
 NO_LINKS = ("kind", "at", "through")
@@ -38,6 +38,7 @@ def references(draft: Draft, link: str, point: str) -> Iterator[tuple[str, str, 
             for key, node in entry:
                 owner = getattr(fields.get(key), "of", None)
                 own = owner is not None and word(entry, owner) == link
+                own = own or (key == "at" and owner is None and link in texts(entry.get("links")))
                 for each in scalars(node):
                     if each.text == f"{link}.{point}" or (own and each.text == point):
                         yield section, name, each

@@ -108,6 +108,9 @@ def _joint(draft: Draft, point: str) -> str:
     for section in ("joints", "assembly"):
         if (found := draft.section(section)) is not None and found.get(point) is not None:
             draft.take_out(section, point)
+    for name, joint in list(draft.section("joints") or ()):
+        if isinstance(joint, MappingNode) and word(joint, "at") == point and joint.get("links") is not None:
+            draft.take_out("joints", name)
     driven = remove_drives(draft, point)
     named = {link: _renamed(draft, link, point) for link in joined[1:]}
     separated = tuple(_("point {point} of {link}", link=link, point=new) for link, new in named.items())
@@ -162,7 +165,7 @@ def _take_off(draft: Draft, point: str, link: str) -> None:
     places = also if isinstance(also, MappingNode) and also.get(point) is not None else points
     if isinstance(places, MappingNode) and (places is also or len(places.entries) > 2):
         if len(places.entries) == 1:
-            draft.write(places, "{}")
+            draft.cut(entry, "also")
         else:
             draft.cut(places, point)
     elif isinstance(points, Sequence) and len(points.items) > 2 and _drawn(entry):

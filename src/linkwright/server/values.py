@@ -23,9 +23,11 @@ MOST, DEEPEST = 2000, 12
 def put(draft: Draft, action: Mapping[str, Any]) -> None:
     """Writes a value at a path of keys; those that are not there yet are made."""
     path, value = _path(action), _plain(action.get("value"))
+    if path[0] in ("links", "loads") and len(path) > 2 and _follow(draft.root, path[:2]) is None:
+        _no_place(path)
     before = draft.text
     _put(draft, path, tidy(value) if isinstance(value, str) else value)
-    _accept(draft, before, path)
+    accept(draft, before, path)
 
 
 def unset(draft: Draft, action: Mapping[str, Any]) -> None:
@@ -43,7 +45,7 @@ def unset(draft: Draft, action: Mapping[str, Any]) -> None:
         else:
             draft.cut(parent, path[-1])
         break
-    _accept(draft, before, path)
+    accept(draft, before, path)
 
 
 def add(draft: Draft, action: Mapping[str, Any]) -> None:
@@ -53,7 +55,7 @@ def add(draft: Draft, action: Mapping[str, Any]) -> None:
     assert isinstance(entry, dict)
     written = {key: tidy(value) if isinstance(value, str) else value for key, value in entry.items()}
     name = draft.put_new(section, stem, written)
-    _accept(draft, before, [section, name])
+    accept(draft, before, [section, name])
 
 
 def _path(action: Mapping[str, Any]) -> list[str]:
@@ -113,16 +115,17 @@ def _follow(node: Node | None, path: Sequence[str]) -> Node | None:
     return node
 
 
-def _accept(draft: Draft, before: str, path: Sequence[str]) -> None:
+def accept(draft: Draft, before: str, path: Sequence[str]) -> None:
     """Raises LinkwrightError with what is wrong at a place of the text, and was not before."""
-    known = {(each.key, each.code) for each in _errors(before)}
+    known = {(each.key, each.code) for each in errors(before)}
     place = f"{'.'.join(path)}."
-    for each in _errors(draft.text):
+    for each in errors(draft.text):
         here = f"{each.key}."
         if (each.key, each.code) not in known and (here.startswith(place) or place.startswith(here) or not each.key):
             draft.text = before
             raise LinkwrightError(with_remedy(each.message, each.remedy))
 
 
-def _errors(text: str) -> list[Finding]:
+def errors(text: str) -> list[Finding]:
+    """What is wrong with a text."""
     return [each for each in read_text(text, "model")[1] if each.severity == "error"]

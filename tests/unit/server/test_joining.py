@@ -208,5 +208,8 @@ def test_what_slides_is_driven_along_its_guide_and_a_law_stays() -> None:
         {"do": "gear", "links": ["link1", "link2"], "teeth": "20:60", "inside": True},
         {"do": "driver", "link": "link1"},
     )
+    freed = {"do": "fix", "point": "O1", "fixed": False}
+    with refused("studio.no_gears"):
+        done(NEW, *gears, freed, {"do": "gear", "links": ["link1", "link2"], "teeth": "20:60"})
     motion = lw.solve_motion(lw.loads(inside.text), steps=8)
     assert motion.link("link2").angular_velocity == pytest.approx(motion.link("crank").angular_velocity / 3)
