@@ -6,6 +6,9 @@ const TURN = 2 * Math.PI;
 // Teeth on the paper: their pitch where their number is not known, heights over and under the pitch line; the finest.
 export const PITCH = 11, TALL = 3.2, DEEP = 3.6, FINEST = 4;
 
+/** How long the longest vector of a kind is drawn, px. */
+export const VECTOR = 90;
+
 export function element(tag: string, attributes: Record<string, string | number> = {}, parent?: Element): SVGElement {
   const made = document.createElementNS(NS, tag);
   for (const name in attributes) made.setAttribute(name, String(attributes[name]));

@@ -7,14 +7,12 @@ import { Names } from "./names";
 import { colours, painted } from "./palette";
 import { amount, Shapes, type Vec } from "./shapes";
 import {
-  arrow, away, DEEP, dashpot, element, far, FINEST, hull, line, PITCH, place, put, round, strand, TALL, thinned, TOOTH, toothed, unit, zigzag,
+  arrow, away, DEEP, dashpot, element, far, FINEST, hull, line, PITCH, place, put, round, strand, TALL, thinned, TOOTH, toothed, unit, VECTOR, zigzag,
 } from "./strokes";
 
 const LAYERS = ["ground", "paths", "bodies", "blocks", "pins", "tops", "marks", "vectors", "names", "handles"];
 const BLOCK = 15, STUB = 8, HALF_HEIGHT = 9;
 const PUSH = 52, GAP = 8;
-/** How long the longest vector of a kind is drawn, px. */
-export const VECTOR = 90;
 // Paper narrower than this has smaller symbols, at least this share of their size; more points than these count as
 // narrower paper.
 const WIDE = 560, SMALLEST = 0.42, POINTS = 10;

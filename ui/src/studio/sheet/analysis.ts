@@ -4,7 +4,8 @@ import type { Vec } from "../../shapes";
 import type { Overlay, Sheet } from "../tools/tool";
 import { quantity } from "../../words";
 import type { Stand } from "./loads";
-import { type View, VECTOR } from "../../view";
+import { VECTOR } from "../../strokes";
+import type { View } from "../../view";
 
 /** Transmission angles that are good, and those with which a machine nearly locks, rad. */
 export const GOOD = (40 * Math.PI) / 180, LOCKS = (20 * Math.PI) / 180;

@@ -48,7 +48,7 @@ export function First({ board }: { board: Board }) {
     board.host.focus();
   };
   return (
-    <section class="first" aria-labelledby="first-title">
+    <section class="first-steps" aria-labelledby="first-title">
       <h1 id="first-title">{say("first")}</h1>
       <ol class="steps">
         {(["pivot", "link", "drive"] as const).map((tool, k) => (

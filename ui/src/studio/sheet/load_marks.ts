@@ -2,11 +2,12 @@
 import type { Vec } from "../../shapes";
 import { away, dashpot, line, unit, zigzag } from "../../strokes";
 import type { Sheet, Overlay } from "../tools/tool";
-import { reads } from "../tools/typed";
+import { quantity } from "../../words";
 import { arcPath, arrowPath, type DrawnLoad, drawnLoads, ROUND, type Stand } from "./loads";
 
 // Names that were given by the program say nothing beside the load.
 const GIVEN = /^(force|load|torque|spring|damper|gas_spring|cylinder|torsion_spring)\d*$/;
+const force = (size: number) => quantity(size, "force", size, 3);
 // Lengths of a weight's arrow and of a cylinder's barrel, its half width, px.
 const WEIGHT = 34, BARREL = 0.55, WIDE = 6;
 
@@ -77,15 +78,16 @@ export function between(form: DrawnLoad["form"], from: Vec, to: Vec): string {
 /** The size of a load, with a name that a person has given. */
 function label(over: Overlay, load: DrawnLoad, stand: Stand, on: boolean): void {
   const { name, form, from, to, size, acts } = load, called = GIVEN.test(name) ? "" : `${name} `, solved = stand.force(name, stand.loads[name])?.force;
-  const constant = stand.loads[name].magnitude, now = form === "arrow" && solved ? reads(Math.hypot(...solved), "force") : size;
-  const text = `${called}${form === "arrow" && !acts ? (typeof constant === "number" ? `(${reads(Math.abs(constant), "force")})` : "") : now}`.trim(), style = on ? " strong" : "";
+  const constant = stand.loads[name].magnitude, push = stand.loads[name].preload, now = (form === "gas" || form === "cylinder") && push ? force(Math.abs(push)) : form === "arrow" && solved ? force(Math.hypot(...solved)) : size;
+  const text = `${called}${form === "arrow" && !acts ? (typeof constant === "number" ? `(${force(Math.abs(constant))})` : "") : now}`.trim(), style = on ? " strong" : "";
   if (!text) return;
   if (form !== "arrow") {
     const [x, y] = [(from[0] + to[0]) / 2, (from[1] + to[1]) / 2], round = form === "arc" || form === "ring" || form === "twist";
     return over.text([x + (round ? ROUND + 5 : 14), y + (round ? -ROUND : 4)], text, `${round ? "load" : "soft"} start${style}`);
   }
   const [u, v] = unit(from, to), flat = Math.abs(u) > 0.8;
-  if (flat) over.text([(from[0] + to[0]) / 2, (from[1] + to[1]) / 2 - 8], text, `load${style}`);
+  // Above the arrow, from its head on outwards: there is room where the load comes from.
+  if (flat) over.text([to[0] - 6 * Math.sign(u), to[1] - 8 - Math.abs(v) * 30], text, `load ${u > 0 ? "end" : "start"}${style}`);
   else over.text([from[0] + (u <= 0 ? 8 : -8), from[1] + (v > 0 ? -2 : 10)], text, `load ${u <= 0 ? "start" : "end"}${style}`);
 }
 
@@ -99,6 +101,6 @@ function weights({ bench, camera }: Sheet, over: Overlay, stand: Stand): void {
     const from = camera.screen(centre), to: Vec = [from[0] + (WEIGHT * gravity[0]) / pull, from[1] - (WEIGHT * gravity[1]) / pull], [shaft, head] = arrowPath(from, to);
     over.path(shaft, "load");
     over.path(head, "load head");
-    if (bench.shows("centres") || bench.has({ kind: "link", name: link })) over.text([to[0] - 6, to[1] + 2], reads(mass * pull, "force"), "load end");
+    if (bench.shows("centres") || bench.has({ kind: "link", name: link })) over.text([to[0] - 6, to[1] + 2], force(mass * pull), "load end");
   }
 }

@@ -34,13 +34,16 @@ export class Stand {
   readonly picture: Partial<Picture>;
   private readonly call: Call | null = null;
   private readonly k: number = 0;
+  /** Between positions: what the machine is there, for the call that has found it is used again. */
+  private readonly between: Map<string, number> | null = null;
 
   /** `place`: among the positions of the machine, between them as well. */
   constructor(readonly scene: Scene, picture: Picture | undefined, readonly session: Session | null, place: number) {
     this.picture = picture ?? {};
     if (!session) return;
-    const { main, solver, n } = session.model, between = Number.isInteger(place) ? null : solver.whole(place);
-    [this.call, this.k] = between ? [between, 0] : [main, Math.round(place) % n];
+    const { main, solver, n } = session.model, found = Number.isInteger(place) ? null : solver.whole(place);
+    [this.call, this.k] = [main, Math.round(place) % n];
+    if (found) this.between = new Map(found.program.outputs.map((name) => [name, found.row(name)[0]]));
   }
 
   get loads(): Record<string, Load> {
@@ -48,6 +51,7 @@ export class Stand {
   }
 
   row(name: string): number | null {
+    if (this.between) return this.between.get(name) ?? null;
     return this.call?.has(name) ? this.call.row(name)[this.k] : null;
   }
 
@@ -133,8 +137,8 @@ export class Stand {
 
 /** The largest of 1, 2 and 5 times a power of ten that is not above a value. */
 export function nice(value: number): number {
-  const power = 10 ** Math.floor(Math.log10(value) + 1e-9);
-  return ([5, 2, 1].find((each) => each * power <= value * (1 + 1e-9)) ?? 1) * power;
+  const power = Math.floor(Math.log10(value) + 1e-9), of = (lead: number) => Number(`${lead}e${power}`);
+  return of([5, 2, 1].find((lead) => of(lead) <= value * (1 + 1e-9)) ?? 1);
 }
 
 /** Newtons for a pixel, so that the largest force is no longer than the longest arrow. */
@@ -176,10 +180,13 @@ function formOf({ kind, stiffness, preload }: Load): DrawnLoad["form"] {
   return stiffness === 0 ? "cylinder" : (preload ?? 0) < 0 ? "gas" : "spring";
 }
 
+/** How far an arrow's head is from the point of a link that it acts on, px. */
+export const gapAt = (link: string, stand: Stand) => (stand.guideOf(link) ? BLOCK_GAP : GAP);
+
 function pushing(name: string, load: Load, stand: Stand, camera: Camera, scale: number): DrawnLoad | null {
   const found = stand.force(name, load), base = { name, sense: 1, size: load.size };
   if (!found) return null;
-  const at = camera.screen(found.at), { force, nominal } = found, gap = stand.guideOf(load.on) ? BLOCK_GAP : GAP;
+  const at = camera.screen(found.at), { force, nominal } = found, gap = gapAt(load.on, stand);
   if (!force && nominal === null) return { ...base, form: "ring", from: at, to: at, acts: false };
   const size = force ? Math.hypot(...force) : 0, u: Vec = force ? [force[0] / size, -force[1] / size] : [Math.cos(nominal!), -Math.sin(nominal!)];
   const long = force ? Math.min(1.5 * LONG, Math.max(SHORT, size / scale)) : PLAIN;

@@ -1,6 +1,6 @@
 // How long vectors are drawn: a round value of each kind that is shown, with its length.
 import { quantity } from "../../words";
-import { VECTOR } from "../../view";
+import { VECTOR } from "../../strokes";
 import { forceScale, nice } from "./loads";
 import type { Board } from "./sheet";
 

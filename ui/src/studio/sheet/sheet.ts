@@ -56,6 +56,7 @@ export class Board implements Sheet {
   private readonly machine: HTMLElement;
   private readonly ends: (() => void)[] = [];
   private known: Scene | null = null;
+  private standing: Stand | null = null;
   /** What could be drawn of the text that the machine is of; how it differs from what can be drawn now. */
   private own: Picture | undefined;
   private compared: { own: Picture; now: Picture; how: "same" | "more" | "other" } | null = null;
@@ -188,8 +189,9 @@ export class Board implements Sheet {
 
   /** The machine or the drawing as it stands, with directions and loads. */
   get stand(): Stand {
-    const session = this.solved;
-    return new Stand(this.scene, this.picture, session, session ? this.place : 0);
+    const session = this.solved, { scene, standing } = this;
+    if (standing?.scene === scene && standing.session === session) return standing;
+    return (this.standing = new Stand(scene, this.picture, session, session ? this.place : 0));
   }
 
   /** Loads as they are drawn now. */

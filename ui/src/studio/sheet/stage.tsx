@@ -37,8 +37,10 @@ export function Stage({ bench }: { bench: Bench }) {
     <main class="stage" ref={stage} data-tool={bench.tool.value}>
       <div class="paper" ref={host} tabIndex={0} role="application" aria-label={bench.say("sheet.label")} aria-describedby="sheet-keys" />
       <p class="unseen" id="sheet-keys">{bench.say("sheet.keys")}</p>
-      {board && layers && <Scales board={board} layers={layers} />}
-      <ShowBar bench={bench} />
+      <div class="sheet-foot">
+        {board && layers && <Scales board={board} layers={layers} />}
+        <ShowBar bench={bench} />
+      </div>
       {board && <First board={board} />}
       {board && <Hint board={board} />}
       {board && <GapCallout board={board} />}

@@ -1,6 +1,6 @@
 // Force: a press on a point and a drag; the length of the arrow is the size, it pushes towards its point.
 import type { Vec } from "../../shapes";
-import { arrowPath, forceScale, nice, type Stand } from "../sheet/loads";
+import { arrowPath, forceScale, gapAt, nice, type Stand } from "../sheet/loads";
 import { type Aim, aimed, direction } from "./aim";
 import { type Grip, grip } from "./grip";
 import { Clicks, polar, TypedValues } from "./hand";
@@ -18,6 +18,8 @@ class ForceTool implements Tool {
   private readonly values: TypedValues;
   private readonly last: LastLoad;
   private held: Grip | null = null;
+  /** The force that is aimed again; "": a new one. */
+  private aimed = "";
   private pull: Vec = [0, 0];
   private free = false;
 
@@ -58,11 +60,19 @@ class ForceTool implements Tool {
       return this.set();
     }
     this.last.drop();
-    this.held = grip(spot, scene, this.stand);
+    this.held = this.again(spot) ?? grip(spot, scene, this.stand);
     if (!this.held) this.sheet.refuse(Object.keys(scene.links).length ? "refuse.no_grip" : "refuse.no_links");
     else bench.select({ kind: "link", name: this.held.link });
     this.pull = [0, 0];
     this.sheet.redraw();
+  }
+
+  /** A force whose arrow is pressed is taken in hand again. */
+  private again({ under, snap }: Spot): Grip | null {
+    const name = under[0]?.kind === "load" && snap?.kind !== "point" ? under[0].name : "", load = this.stand.loads[name], at = load && this.sheet.scene.at(load.at);
+    const aimable = load?.kind === "force" && at && (load.held === "space" || load.held === "link") && typeof load.magnitude === "number" && load.always;
+    this.aimed = aimable ? name : "";
+    return aimable ? { link: load.on, point: load.at, at, made: [] } : null;
   }
 
   private get aim(): Aim {
@@ -70,24 +80,33 @@ class ForceTool implements Tool {
     return typed === null ? aimed(this.pull, this.held!.link, this.stand, this.free) : { angle: typed, snapped: "" };
   }
 
+  /** How long the arrow is: its head is beside the point, px. */
+  private get reach(): number {
+    return Math.max(0, Math.hypot(...this.pull) - gapAt(this.held!.link, this.stand));
+  }
+
   private get size(): number {
     const scale = forceScale(this.stand.loads), coarse = nice(scale * COARSE * (1 + 1e-9));
-    return this.values.value("size") ?? Math.max(coarse, coarse * Math.round((Math.hypot(...this.pull) * scale) / coarse));
+    return this.values.value("size") ?? Math.max(coarse, coarse * Math.round((this.reach * scale) / coarse));
   }
 
   /** Puts the force into the text; one that is no longer than a slip of the hand stays in hand. */
   private set(): void {
     const { held } = this;
     if (!held || (Math.hypot(...this.pull) < 2 * COARSE && !this.values.any)) return;
-    const { key, angle } = direction(this.aim, held.link, this.stand);
-    const entry = {
-      kind: "force", on: held.link, at: held.point, [key]: this.values.written("direction") ?? written(angle, "angle"),
-      magnitude: this.values.written("size") ?? written(this.size, "force"),
-    };
-    this.held = null;
-    this.values.clear();
-    void this.last.put([...held.made, { do: "add", section: "loads", stem: "force", entry }]);
+    const { key, angle } = direction(this.aim, held.link, this.stand), name = this.aimed;
+    const way = this.values.written("direction") ?? written(angle, "angle"), magnitude = this.values.written("size") ?? written(this.size, "force");
+    const entry = { kind: "force", on: held.link, at: held.point, [key]: way, magnitude };
+    this.drop();
+    if (name) void this.sheet.act([{ do: "set", path: ["loads", name], value: entry }]).then(() => this.sheet.bench.select({ kind: "load", name }));
+    else void this.last.put([...held.made, { do: "add", section: "loads", stem: "force", entry }]);
     this.sheet.redraw();
+  }
+
+  private drop(): void {
+    this.held = null;
+    this.aimed = "";
+    this.values.clear();
   }
 
   enter(): void {
@@ -97,8 +116,9 @@ class ForceTool implements Tool {
 
   escape(): boolean {
     this.clicks.drop();
-    const back = this.values.clear() || this.last.drop() || this.held !== null;
-    if (!this.values.any) this.held = null;
+    if (this.values.clear() || this.last.drop()) return true;
+    const back = this.held !== null;
+    this.drop();
     return back;
   }
 
@@ -126,11 +146,10 @@ class ForceTool implements Tool {
   draw(over: Overlay): void {
     const { held, sheet } = this;
     if (!held) return;
-    const at = sheet.camera.screen(held.at), { angle, snapped } = this.aim, reach = Math.hypot(...this.pull);
+    const at = sheet.camera.screen(held.at), { angle, snapped } = this.aim;
     over.circle(at, 5, "hand pin");
-    if (reach < COARSE && !this.values.any) return;
-    const u: Vec = [Math.cos(angle), -Math.sin(angle)], gap = this.stand.guideOf(held.link) ? 22 : 7;
-    const tip = polar(at, -gap, -angle), long = Math.max(16, reach - gap), tail: Vec = [tip[0] - long * u[0], tip[1] - long * u[1]];
+    if (Math.hypot(...this.pull) < COARSE && !this.values.any) return;
+    const u: Vec = [Math.cos(angle), -Math.sin(angle)], tip = polar(at, -gapAt(held.link, this.stand), -angle), long = Math.max(16, this.reach), tail: Vec = [tip[0] - long * u[0], tip[1] - long * u[1]];
     if (snapped === "guide" || snapped === "link") over.path(`M${at[0] - 300 * u[0]} ${at[1] - 300 * u[1]}L${at[0] + 110 * u[0]} ${at[1] + 110 * u[1]}`, "hand dashed");
     const [shaft, head] = arrowPath(tail, tip);
     over.path(shaft, "load thick");
@@ -140,8 +159,7 @@ class ForceTool implements Tool {
   }
 
   leave(): void {
-    this.held = null;
-    this.values.clear();
+    this.drop();
     this.last.drop();
     this.clicks.drop();
   }

@@ -100,8 +100,9 @@ class TorqueTool implements Tool {
 
   escape(): boolean {
     this.clicks.drop();
-    const back = this.values.clear() || this.last.drop() || this.link !== "";
-    if (!this.values.any) this.link = "";
+    if (this.values.clear() || this.last.drop()) return true;
+    const back = this.link !== "";
+    this.link = "";
     return back;
   }
 
