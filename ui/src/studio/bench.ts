@@ -32,7 +32,7 @@ export interface Item {
 export const same = (a: Item | null, b: Item | null) => a?.kind === b?.kind && a?.name === b?.name;
 
 /** What stands over the room and waits for an answer. */
-export type Dialog = { kind: "open"; part?: "drafts" | "files" | "gallery" } | { kind: "save" | "link" | "keys" | "palette" | "tools" };
+export type Dialog = { kind: "open"; part?: "drafts" | "files" | "gallery" } | { kind: "save" | "link" | "keys" | "palette" | "tools" | "exercise" };
 
 /** How the sheet is looked at: what its bar and keys call. The sheet sets it. */
 export interface SheetView {

@@ -11,6 +11,7 @@ import "./dock/dock.css";
 import "./frame/frame.css";
 import { fileCommands } from "./frame/commands";
 import { Divider } from "./frame/divider";
+import { ExerciseDialog } from "./frame/exercise";
 import { type Commands, listen } from "./frame/keys";
 import { KeySheet } from "./frame/keysheet";
 import { DOCK, followWindow, INSPECTOR, SHUT, sized } from "./frame/layout";
@@ -86,6 +87,7 @@ function Asked({ bench }: { bench: Bench }) {
     case "save": return <SaveDialog bench={bench} />;
     case "link": return <LinkDialog bench={bench} />;
     case "keys": return <KeySheet bench={bench} />;
+    case "exercise": return <ExerciseDialog bench={bench} />;
     case "tools": return <ToolSheet bench={bench} />;
     case "palette": return <Palette bench={bench} />;
     default: return null;

@@ -33,13 +33,16 @@ export function fileCommands(bench: Bench): Record<"fresh" | "open" | "drafts" |
 }
 
 /** What is handed out, by the ending of the file; null is a line. */
-export const ENDINGS = [".report.pdf", ".report.html", ".html", null, ".xlsx", ".csv", ".json", null, ".svg", ".pdf", ".png", ".dxf"] as const;
-const SIGNS: Record<string, IconName> = { ".xlsx": "table", ".csv": "table", ".json": "file_text", ".html": "play", ".report.pdf": "file_text", ".report.html": "file_text" };
+export const ENDINGS = [
+  ".report.pdf", ".report.html", ".html", null, ".sheet.pdf", ".sheet.dxf", ".exercise.pdf", null, ".xlsx", ".csv", ".json", null, ".svg", ".pdf", ".png", ".dxf",
+] as const;
+const SIGNS: Record<string, IconName> = { ".xlsx": "table", ".csv": "table", ".json": "file_text", ".html": "play", ".report.pdf": "file_text", ".report.html": "file_text", ".exercise.pdf": "pencil" };
 
 export function exportCommands(bench: Bench): (Command | null)[] {
   const not = bench.session.value ? undefined : bench.say("export.not");
+  const take = (ending: string) => (ending === ".exercise.pdf" ? () => void (bench.dialog.value = { kind: "exercise" }) : () => void bench.desk.take(ending));
   return ENDINGS.map((ending) => ending && {
-    group: "export", label: bench.say(`export${ending}`), icon: SIGNS[ending] ?? "export", keys: ending.replace(".report", ""), not, act: () => void bench.desk.take(ending),
+    group: "export", label: bench.say(`export${ending}`), icon: SIGNS[ending] ?? "export", keys: ending.replace(/^.*(?=\.)/, ""), not, act: take(ending),
   });
 }
 
