@@ -13,6 +13,7 @@ export interface Found {
   severity: string;
   line: number;
   key: string;
+  code?: string;
   /** What is the matter and what to do about it. */
   sentence: string;
 }

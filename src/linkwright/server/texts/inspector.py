@@ -355,6 +355,7 @@ INSPECTOR: dict[str, Message] = {
     "insp.note": pgettext("inspector", "Note"),
     "insp.show": _("Show on the sheet"),
     "insp.line": pgettext("inspector", "Line {line}"),
+    "insp.even_bar": _("Inertia of an even bar"),
     "insp.loop": _("Lengths of this loop"),
     "insp.no_structure": _("The structure shows once links are drawn."),
     "insp.mobility": pgettext("inspector", "Mobility"),

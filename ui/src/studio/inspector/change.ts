@@ -21,6 +21,12 @@ export const unset = (bench: Bench, path: Path) => perform(bench, [{ do: "unset"
 /** Sets a value, or takes it out of the text where it is empty. */
 export const put = (bench: Bench, path: Path, value: string) => (value.trim() ? set(bench, path, value) : unset(bench, path));
 
+/** Carries out actions and selects the links that they have made, with others. */
+export async function make(bench: Bench, actions: Action[], others: string[] = []): Promise<void> {
+  const made = await bench.desk.act(actions), { links = {} } = bench.desk.solved.value.picture ?? {};
+  if (made) bench.select(...[...others, ...made].filter((name) => name in links).map((name) => ({ kind: "link" as const, name })));
+}
+
 /** Does what was asked; why it was refused is said at the foot. */
 export async function tell(bench: Bench, work: Promise<string | null>): Promise<boolean> {
   const sentence = await work;

@@ -5,7 +5,7 @@ import type { Gap, Remedy } from "../outline";
 import { Icon } from "../frame/icons";
 import { quantity } from "../../words";
 import { perform, tell } from "./change";
-import { itemAtLine, itemOf, table } from "./entries";
+import { at, itemAtLine, itemOf, table, word } from "./entries";
 import { Act, Section } from "./fields";
 import { goTo } from "./text";
 
@@ -24,7 +24,7 @@ export function foundIn(bench: Bench): Shown[] {
   if (outline && !Object.keys(table(outline.entries.links)).length && !Object.keys(outline.entries.frame ?? {}).length) return [];
   const shown: Shown[] = gap ? [{ severity: "error", title: gap.title, sentence: gap.sentence, line: 0, items: gapItems(gap), remedies: gap.remedies }] : [];
   if (sentence && !model && !gap && !findings.some(({ severity }) => severity === "error")) shown.push({ severity: "error", title: "", sentence, line: 0, items: [], remedies: [] });
-  const order = ["error", "warning"], all = [...shown, ...findings.map((found): Shown => ({ severity: found.severity, sentence: found.sentence, line: found.line, title: "", items: itemsOf(bench, found), remedies: [] }))];
+  const order = ["error", "warning"], all = [...shown, ...findings.map((found): Shown => ({ severity: found.severity, sentence: found.sentence, line: found.line, title: "", items: itemsOf(bench, found), remedies: remediesOf(bench, found) }))];
   const rank = ({ severity }: Shown) => (order.includes(severity) ? order.indexOf(severity) : order.length);
   return all.sort((a, b) => rank(a) - rank(b));
 }
@@ -36,6 +36,13 @@ function itemsOf(bench: Bench, { key, line }: Found): Item[] {
   if (!outline) return [];
   const item = itemOf(outline.entries, key) ?? (line ? itemAtLine(outline, line) : null);
   return item ? [item] : [];
+}
+
+/** What a click can do about a finding of the text. */
+function remediesOf(bench: Bench, { code, key }: Found): Remedy[] {
+  const { outline } = bench.desk.solved.value, [, name = ""] = key.split("."), link = table(at(outline?.entries, "links", name)), mass = word(link.mass);
+  if (code !== "no-inertia" || !mass || word(link.length) === "") return [];
+  return [{ title: bench.say("insp.even_bar"), change: "m·l²/12", note: name, actions: [{ do: "mass", link: name, mass } as Remedy["actions"][number]] }];
 }
 
 export function Findings({ bench }: { bench: Bench }) {

@@ -2,14 +2,14 @@
 import { quantity } from "../../words";
 import type { Bench } from "../bench";
 import { Icon } from "../frame/icons";
-import { perform, put, set, tell } from "./change";
+import { make, perform, put, set } from "./change";
 import { at, isTable, loadsOn, type Path, pointsOf, type Table, table, word, words } from "./entries";
 import { Act, Chips, Lock, Quantity, Row, Section, Sentence, Typing } from "./fields";
 import { Head, Written } from "./head";
 import { LoadList } from "./loads_list";
 import { Mass } from "./mass";
 import { placeOf, useNow } from "./now";
-import { inUnit } from "./quantities";
+import { inUnit, si } from "./quantities";
 import type { PanelProps } from "./selected";
 
 const TURN = 2 * Math.PI, NEAR = 1e-6;
@@ -114,12 +114,12 @@ function Angle({ bench, name, points, link }: { bench: Bench; name: string; poin
   if (!a || !b) return null;
   const radians = Math.atan2(b[1] - a[1], b[0] - a[0]), drawn = !session || index === session.data.drawing.at;
   const turn = async (text: string) => {
-    const wanted = (Number.parseFloat(text) * Math.PI) / 180, far = Math.hypot(b[0] - a[0], b[1] - a[1]);
+    const wanted = (Number.parseFloat(text) * Math.PI) / 180, written = si(word(link.length)), far = written > 0 ? written : Math.hypot(b[0] - a[0], b[1] - a[1]);
     if (!Number.isFinite(wanted) || !/^[-+.\d]+ ?(deg|°)?$/.test(text)) return bench.say("insp.no_angle", { text });
     const to = [a[0] + far * Math.cos(wanted), a[1] + far * Math.sin(wanted)];
     return perform(bench, [{ do: "move", points: { [second]: to }, locked: [...bench.locked.value, ...(word(link.length) ? [`${name}.length`] : [])] }]);
   };
-  return <Quantity label={bench.say(session ? "insp.angle_now" : "insp.angle")} value={`${inUnit(radians, "deg")} deg`} unit="deg" follows set={drawn ? turn : undefined} />;
+  return <Quantity label={bench.say(session ? "insp.angle_now" : "insp.angle")} value={`${inUnit(radians, "deg", 4)} deg`} unit="deg" follows set={drawn ? turn : undefined} />;
 }
 
 /** How far a link swings over the cycle. */
@@ -140,10 +140,10 @@ function Swing({ bench, name }: { bench: Bench; name: string }) {
 
 async function split(bench: Bench, link: string, [first, second]: string[]): Promise<void> {
   const places = bench.desk.solved.value.picture?.points ?? {}, a = places[first], b = places[second];
-  if (a && b) await tell(bench, perform(bench, [{ do: "split", link, at: [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2] }]));
+  if (a && b) await make(bench, [{ do: "split", link, at: [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2] }], [link]);
 }
 
 async function paste(bench: Bench, name: string, shift: [number, number], mirror?: "x" | "y"): Promise<void> {
-  await tell(bench, perform(bench, [{ do: "paste", items: [{ kind: "link", name }], shift, ...(mirror ? { mirror } : {}) }]));
+  await make(bench, [{ do: "paste", items: [{ kind: "link", name }], shift, ...(mirror ? { mirror } : {}) }]);
 }
 

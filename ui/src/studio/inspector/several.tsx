@@ -4,7 +4,7 @@ import type { Vec } from "../../shapes";
 import type { Bench, Item } from "../bench";
 import type { Outline } from "../outline";
 import { Icon } from "../frame/icons";
-import { perform, tell } from "./change";
+import { make, perform, tell } from "./change";
 import { at, linksAt, type Path, type Table, word } from "./entries";
 import { Act, Quantity, Row } from "./fields";
 
@@ -45,8 +45,8 @@ export function Several({ bench, items, entries }: { bench: Bench; items: Item[]
       )}
       <div class="row-acts">
         {weldable.length > 0 && <Act icon="weld" act={() => void act(...weldable.map((point) => ({ do: "weld", point, on: linksAt(entries, point)[1] })))}>{say("insp.weld")}</Act>}
-        {copied.length > 0 && <Act icon="mirror" act={() => void act({ do: "paste", items: copied, shift: [0, 0], mirror: "x" })}>{say("insp.mirror")}</Act>}
-        {copied.length > 0 && <Act icon="copy" act={() => void act({ do: "paste", items: copied, shift: [0.02, -0.02] })}>{say("insp.copy")}</Act>}
+        {copied.length > 0 && <Act icon="mirror" act={() => void make(bench, [{ do: "paste", items: copied, shift: [0, 0], mirror: "x" }])}>{say("insp.mirror")}</Act>}
+        {copied.length > 0 && <Act icon="copy" act={() => void make(bench, [{ do: "paste", items: copied, shift: [0.02, -0.02] }])}>{say("insp.copy")}</Act>}
       </div>
       <ul class="list names">
         {items.map((item) => <li key={`${item.kind} ${item.name}`}><button type="button" onClick={() => bench.select(item)} onPointerEnter={() => (bench.hovered.value = item)} onPointerLeave={() => (bench.hovered.value = null)}><b>{item.name}</b><span>{say(`insp.kind_${item.kind}`)}</span></button></li>)}
