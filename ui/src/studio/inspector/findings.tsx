@@ -42,7 +42,7 @@ function itemsOf(bench: Bench, { key, line }: Found): Item[] {
 function remediesOf(bench: Bench, { code, key }: Found): Remedy[] {
   const { outline } = bench.desk.solved.value, [, name = ""] = key.split("."), link = table(at(outline?.entries, "links", name)), mass = word(link.mass);
   if (code !== "no-inertia" || !mass || word(link.length) === "") return [];
-  return [{ title: bench.say("insp.even_bar"), change: "m·l²/12", note: name, actions: [{ do: "mass", link: name, mass } as Remedy["actions"][number]] }];
+  return [{ title: bench.say("insp.even_bar"), change: "m·l²/12", note: name, places: {}, actions: [{ do: "mass", link: name, mass } as Remedy["actions"][number]] }];
 }
 
 export function Findings({ bench }: { bench: Bench }) {
