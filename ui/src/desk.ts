@@ -47,7 +47,14 @@ interface Edited {
   text: string;
   notes: string[];
   made: string[];
+  renamed: Renamed[];
   picture: Picture;
+}
+
+export interface Renamed {
+  kind: string;
+  from: string;
+  to: string;
 }
 
 /** What can be opened; times in ms of the clock. */
@@ -137,6 +144,8 @@ export class Desk {
   /** Whether the server has not answered since a question or a change that it does not have. */
   readonly gone = signal(false);
   private unkept = false;
+  /** Elements that the last actions have named otherwise. */
+  readonly renamed = signal<Renamed[]>([]);
   /** How many files are being made for downloads. */
   readonly making = signal(0);
   readonly sought = signal<Sought | null>(null);
@@ -506,6 +515,7 @@ export class Desk {
       if (!edited) return null;
       if (from !== this.text.value) continue;
       this.change(edited.text);
+      this.renamed.value = edited.renamed;
       this.page.note.value = edited.notes.join(" ");
       return edited;
     }

@@ -15,6 +15,8 @@ export interface Picture {
   drives?: Record<string, Drive>;
   /** Points that are where the solved machine has them, by its dimensions. */
   placed?: string[];
+  /** Links that no places of their points make as long as they are written. */
+  unmet?: string[];
 }
 
 /** A link's mass, kg (null: no plain number) and as it is written; its centre: a point, coordinates in the link's axes (m)

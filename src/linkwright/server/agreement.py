@@ -225,7 +225,8 @@ def _agrees(draft: Draft, wanted: list[Condition], at: Places) -> bool:
 
 
 def move(draft: Draft, at: Places, found: Places) -> None:
-    """Draws points at other places, in fine steps where they come from sizes."""
+    """Draws drawn points at other places, in fine steps; where others stand the solved machine tells."""
+    drawn = draft.picture()["points"]
     for name, place in found.items():
-        if abs(place - at[name]) > 0.05 * draft.step:
+        if name in drawn and abs(place - at[name]) > 0.05 * draft.step:
             draft.draw(name, place, fine=True)

@@ -33,8 +33,8 @@ class Draft(Document):
         self.places = dict(places or {})
         #: Names of new elements, in the order in which they were made.
         self.made: list[str] = []
-        #: New names by those before.
-        self.renamed: dict[str, str] = {}
+        #: New names of elements: kind, from, to.
+        self.renamed: list[dict[str, str]] = []
         self._tree_of: tuple[str, Node | None] = "", None
 
     def picture(self) -> Plain:

@@ -20,7 +20,7 @@ class Edited(NamedTuple):
     text: str
     notes: list[str]
     made: list[str]
-    renamed: dict[str, str]
+    renamed: list[dict[str, str]]
     picture: Plain
 
 
@@ -46,9 +46,9 @@ def edited(text: str, actions: Sequence[Mapping[str, Any]]) -> Edited:
     ``remove`` {items: [{kind, name}]} · ``paste`` {items, shift: [dx, dy], mirror?: x | y} · ``optimize`` {section}
 
     ``kind`` and ``what`` are point, link, pair, load or driver. ``made`` has the names of new elements of all actions
-    in their order: of a point, link, pair or load that was not there before; ``renamed``: {old: new} names of links
-    that ``driver`` names by function (link1 → crank). Raises LinkwrightError for an action
-    that the text does not admit.
+    in their order: of a point, link, pair or load that was not there before; ``renamed``: [{kind, from, to}], by
+    ``rename`` and by ``driver``, which names drawn links by function (link1 → crank). Raises LinkwrightError for an
+    action that the text does not admit.
     """
     draft, notes = Draft(text), list[str]()
     for action in actions:

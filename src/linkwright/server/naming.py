@@ -82,6 +82,7 @@ def change(draft: Draft, what: str, old: str, new: str) -> None:
     if len(now) > known:
         draft.text = before
         raise LinkwrightError(with_remedy(now[0].message, now[0].remedy))
+    draft.renamed.append({"kind": what, "from": old, "to": new})
 
 
 def _mentions(draft: Draft, what: str, old: str, new: str) -> Iterator[tuple[Scalar, str]]:
@@ -152,4 +153,3 @@ def by_function(draft: Draft) -> None:
         if found and GENERIC.fullmatch(found[0]) and name not in taken:
             change(draft, "link", found[0], name)
             draft.made[:] = [name if each == found[0] else each for each in draft.made]
-            draft.renamed[found[0]] = name

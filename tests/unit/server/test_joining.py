@@ -25,7 +25,11 @@ LOOSE = (
 def test_a_free_end_dropped_on_a_joint_is_a_pin() -> None:
     text = done(NEW, *LOOSE, {"do": "merge", "from": "C", "into": "B"}, {"do": "driver", "link": "link1"})
     assert "C" not in text.picture["points"]
-    assert text.renamed == {"link1": "crank", "link2": "coupler", "link3": "rocker"}
+    assert [(each["from"], each["to"]) for each in text.renamed] == [
+        ("link1", "crank"),
+        ("link2", "coupler"),
+        ("link3", "rocker"),
+    ]
     assert "rocker: {points: [B, O2], length: 126.5 mm}" in text.text  # hypot(40, 120)
     assert lw.structure(lw.loads(text.text)).mobility == 1
     assert yaml.safe_load(text.text)["driver"] == {"turn": "crank", "about": "O1", "speed": "60 rpm"}

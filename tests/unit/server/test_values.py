@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 import yaml
+from tests import store
 from tests.refusals import refused
 from tests.unit.server.drawing import FOURBAR, NEW, done
 
@@ -68,3 +69,11 @@ def test_values_are_made_and_taken_out_where_they_belong() -> None:
         done(text, {"do": "add", "section": "loads", "stem": "force", "entry": {**force, "magnitude": "3 kg"}})
     with pytest.raises(lw.LinkwrightError):
         done(text, {"do": "add", "section": "loads", "stem": "force", "entry": {**force, "at": "Z"}})
+
+
+def test_a_machine_by_lengths_alone_gets_no_drawing_when_a_length_is_set() -> None:
+    text = store.text("crank_rocker")
+    places = {"A": [0.1, 0.0], "B": [0.2, 0.2]}
+    now = done(text, {**put(["links", "coupler", "length"], "3.7 m"), "places": places})
+    changed = [line for line, new in zip(text.splitlines(), now.text.splitlines(), strict=True) if line != new]
+    assert changed == [next(each for each in text.splitlines() if each.startswith("  coupler: {points"))]

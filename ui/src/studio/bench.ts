@@ -1,6 +1,6 @@
 // The workbench: what is selected, in hand and shown, beside the document (Desk) and the machine that it makes (Session).
 import { computed, effect, signal } from "@preact/signals";
-import type { Desk } from "../desk";
+import type { Desk, Renamed } from "../desk";
 import type { Session } from "../session";
 import type { Vec } from "../shapes";
 import type { Gap } from "./outline";
@@ -122,9 +122,19 @@ export class Bench {
 
   constructor(readonly desk: Desk) {
     effect(() => {
+      for (const named of this.desk.renamed.value) this.follow(named);
+    });
+    effect(() => {
       const session = this.session.value, { value } = this.locked;
       if (session) session.model.locked = new Set([...value].filter((address) => address in session.model.values));
     });
+  }
+
+  /** What is selected or locked keeps to elements that are named otherwise. */
+  private follow({ kind, from, to }: Renamed): void {
+    this.selection.value = this.selection.peek().map((item) => (item.kind === kind && item.name === from ? { kind: item.kind, name: to } : item));
+    const inside = `${from}.`, renamed = (address: string) => (address.startsWith(inside) ? to + address.slice(from.length) : address);
+    if (kind !== "point") this.locked.value = new Set([...this.locked.peek()].map(renamed));
   }
 
   lock(addresses: string[], on: boolean): void {
