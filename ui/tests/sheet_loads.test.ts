@@ -7,6 +7,7 @@ import { wedge } from "../src/studio/sheet/analysis";
 import { scaled } from "../src/studio/sheet/backdrop";
 import { Camera } from "../src/studio/sheet/camera";
 import { drawnLoads, forceScale, loadAt, nice, Stand } from "../src/studio/sheet/loads";
+import { beside } from "../src/studio/sheet/hand";
 import { scale } from "../src/studio/sheet/scales";
 import { Scene } from "../src/studio/sheet/scene";
 import { aimed, direction } from "../src/studio/tools/aim";
@@ -137,4 +138,14 @@ test("numbers are written as a person would", () => {
     [written(250, "force"), written(12500, "force"), written(-Math.PI, "angle"), written(0.0803, "length"), written(-1e-12, "length"), written(2000, "stiffness"), written(2 * Math.PI, "rate")],
     ["250 N", "12.5 kN", "-180 deg", "80.3 mm", "0 mm", "2 N/mm", "60 rpm"],
   );
+});
+
+test("the values in hand stand beside the pointer, off the element and inside of the sheet", () => {
+  const size: Vec = [180, 90], sheet: Vec = [900, 500];
+  for (let k = 0; k < 500; k++) {
+    const at: Vec = [40 + 820 * Math.random(), 40 + 420 * Math.random()], from: Vec = [900 * Math.random(), 500 * Math.random()];
+    const [x, y] = beside(at, size, sheet, from), covers = ([u, v]: Vec) => u > x && u < x + size[0] && v > y && v < y + size[1];
+    assert.ok(x >= 0 && y >= 0 && x + size[0] <= sheet[0] && y + size[1] <= sheet[1] && !covers(at));
+  }
+  assert.ok(beside([700, 200], size, sheet, [400, 300])[1] < 200, "away from where the element comes from");
 });

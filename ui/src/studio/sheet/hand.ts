@@ -165,10 +165,31 @@ export class Hand {
     if (unit.textContent !== symbol) unit.textContent = symbol;
   }
 
-  /** Beside a place of the sheet, never over it, inside of the sheet. */
-  private put([x, y]: Vec): void {
-    const { panel } = this, [w, h] = this.board.camera.size, wide = panel.offsetWidth, tall = panel.offsetHeight;
-    const left = x + AWAY + wide + EDGE <= w ? x + AWAY : x - AWAY - wide, low = y + AWAY + tall + EDGE <= h ? y + AWAY : y - AWAY - tall;
-    panel.style.transform = `translate(${Math.round(Math.max(EDGE, Math.min(left, w - wide - EDGE)))}px, ${Math.round(Math.max(EDGE, low))}px)`;
+  /** Beside a place of the sheet, never over it or the element that begins elsewhere, inside of the sheet. */
+  private put(at: Vec): void {
+    const { panel } = this, { camera, tool } = this.board, from = tool.begins?.() ?? tool.anchor?.() ?? null;
+    const [x, y] = beside(at, [panel.offsetWidth, panel.offsetHeight], camera.size, from && camera.screen(from));
+    panel.style.transform = `translate(${Math.round(x)}px, ${Math.round(y)}px)`;
   }
+}
+
+// Shares of an element in hand that the panel should not cover.
+const SHARES = [0, 0.25, 0.5, 0.75];
+
+/** The corner of a panel beside a place: of the four sides the first that is inside of the sheet and off the element. */
+export function beside([x, y]: Vec, [wide, tall]: Vec, [w, h]: Vec, from: Vec | null): Vec {
+  const lefts = [x + AWAY, x - AWAY - wide], tops = [y + AWAY, y - AWAY - tall], shares = from ? SHARES : [];
+  const inside = (value: number, size: number, all: number) => Math.max(EDGE, Math.min(value, all - size - EDGE));
+  let best = Infinity, found: Vec = [0, 0];
+  for (const left of lefts)
+    for (const top of tops) {
+      const at: Vec = [inside(left, wide, w), inside(top, tall, h)], out = Math.abs(at[0] - left) + Math.abs(at[1] - top);
+      const over = shares.filter((share) => {
+        const [u, v] = [from![0] + share * (x - from![0]), from![1] + share * (y - from![1])];
+        return u > at[0] - EDGE && u < at[0] + wide + EDGE && v > at[1] - EDGE && v < at[1] + tall + EDGE;
+      });
+      const worse = 10 * out + over.length;
+      if (worse < best) [best, found] = [worse, at];
+    }
+  return found;
 }

@@ -6,6 +6,7 @@ import { line } from "../../strokes";
 import type { Overlay } from "../tools/tool";
 import { drawLimits, drawTransmission, drawVectorSizes } from "./analysis";
 import { Backdrop, keepPhotos } from "./backdrop";
+import { showPhoto } from "../tools/photo";
 import { drawLoadMarks } from "./load_marks";
 import { type Scale, scalesOf } from "./scales";
 import type { Board } from "./sheet";
@@ -25,6 +26,8 @@ export class Layers {
       void [bench.photo.value, bench.target.value, bench.foreseen.value, bench.tool.value];
       board.redraw();
     });
+    board.host.addEventListener("dragover", (event) => event.preventDefault());
+    board.host.addEventListener("drop", (event) => this.drop(event));
     this.ends = [() => board.layers.delete(this.draw), redrawn, keepPhotos(bench)];
   }
 
@@ -40,6 +43,13 @@ export class Layers {
     const scales = scalesOf(board);
     if (JSON.stringify(scales) !== JSON.stringify(this.scales.peek())) this.scales.value = scales;
   };
+
+  /** A picture that is dropped on the sheet goes behind the drawing. */
+  private drop(event: DragEvent): void {
+    const file = [...(event.dataTransfer?.files ?? [])].find(({ type }) => type.startsWith("image/"));
+    event.preventDefault();
+    if (file) void showPhoto(this.board, file);
+  }
 
   end(): void {
     for (const each of this.ends) each();

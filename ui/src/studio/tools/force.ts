@@ -122,8 +122,8 @@ class ForceTool implements Tool {
     return back;
   }
 
-  anchor(): null {
-    return null;
+  begins(): Vec | null {
+    return this.held?.at ?? null;
   }
 
   fields(): Field[] {

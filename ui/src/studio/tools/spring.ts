@@ -1,4 +1,5 @@
 // Spring and its kin: damper, gas spring and cylinder between two points, torsion spring between two links.
+import type { Vec } from "../../shapes";
 import type { SpringName } from "../bench";
 import type { Stand } from "../sheet/loads";
 import { type Grip, grip } from "./grip";
@@ -129,6 +130,10 @@ class SpringTool implements Tool {
     const { begun } = this;
     this.drop();
     return begun;
+  }
+
+  begins(): Vec | null {
+    return this.from?.at ?? null;
   }
 
   fields(): Field[] {

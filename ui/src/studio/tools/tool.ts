@@ -102,6 +102,8 @@ export interface Tool {
   fields?(): Field[];
   /** From where lengths and directions run: the pointer snaps to horizontal, vertical, steps of 15° and equal lengths. */
   anchor?(): Vec | null;
+  /** Where the element in hand begins, m, where nothing snaps from there: the panel keeps clear of it, as of the anchor. */
+  begins?(): Vec | null;
   /** Points in hand, to which the pointer does not snap. */
   avoid?(): string[];
   /** What it has snapped to by itself, at the head of the panel ("Along the guide"); "": nothing. */
