@@ -43,7 +43,8 @@ def edited(text: str, actions: Sequence[Mapping[str, Any]]) -> Edited:
     ``cam`` {cam, at, lift}
     Loads: ``load`` {link, at, force, angle} · ``add`` {section, stem, entry} with the entry as a file has it
     Anything: ``set`` {path: [key, …], value} · ``unset`` {path} · ``rename`` {what, from, to} ·
-    ``remove`` {items: [{kind, name}]} · ``paste`` {items, shift: [dx, dy], mirror?: x | y} · ``optimize`` {section}
+    ``remove`` {items: [{kind, name}]} · ``optimize`` {section} ·
+    ``paste`` {items, shift: [dx, dy], mirror?: x | y, of?: text}
 
     ``kind`` and ``what`` are point, link, pair, load or driver. ``made`` has the names of new elements of all actions
     in their order: of a point, link, pair or load that was not there before; ``renamed``: [{kind, from, to}], by

@@ -31,9 +31,9 @@ SIDES = {"left": "right", "right": "left"}
 class _Copy:
     """New names of links and points, and where these go."""
 
-    def __init__(self, draft: Draft, links: list[str], points: list[str], mirror: str) -> None:
+    def __init__(self, draft: Draft, source: Draft, links: list[str], points: list[str], mirror: str) -> None:
         self.mirror = mirror
-        fixed = draft.picture()["fixed"]
+        fixed = source.picture()["fixed"]
         taken = {*draft.picture()["links"], *(key for key, _unused in draft.section("joints") or ())}
         self.links: dict[str, str] = {}
         for name in links:
@@ -117,36 +117,40 @@ def _is_torque(text: str) -> bool:
 
 
 def paste(draft: Draft, action: Mapping[str, Any]) -> None:
-    """Copies of items, moved by a shift, mirrored before about their middle: x from left to right, y upside down."""
+    """Copies of items, moved by a shift, mirrored before about their middle: x from left to right, y upside down.
+
+    ``of``: the text that they are taken from, where that is another one, as of what has been cut.
+    """
+    source = Draft(request.text(action, "of")) if "of" in action else draft
     items, shift = request.mappings(action, "items"), complex(*request.place(action, "shift"))
     mirror = request.text(action, "mirror", "") if action.get("mirror") else ""
     if mirror not in ("", "x", "y"):
         request.refuse("mirror", "name")
-    links = _links(draft, items)
-    shown = draft.picture()
+    links = _links(source, items)
+    shown = source.picture()
     points = list(dict.fromkeys(point for link in links for point in shown["links"][link]))
     chosen = [request.name(item, "name") for item in items if item.get("kind") == "point"]
     points += [name for name in dict.fromkeys(chosen) if name in shown["fixed"] and name not in points]
-    inside = [(key, each) for key, each in draft.section("joints") or () if _within(each, draft, links)]
-    loads = [each for _unused, each in draft.section("loads") or () if _within(each, draft, links)]
+    inside = [(key, each) for key, each in source.section("joints") or () if _within(each, source, links)]
+    loads = [each for _unused, each in source.section("loads") or () if _within(each, source, links)]
     for _unused, joint in inside:
         through = word(joint, "through")
         if word(joint, "guide") == "frame" and through not in points:
             points.append(through)
     if not points:
         raise LinkwrightError(_("there is nothing to copy", code="studio.no_copy"))
-    draft.complete(points)
-    copy = _Copy(draft, links, points, mirror)
-    _draw(draft, copy, _moved([draft.where(each) for each in points], mirror, shift))
+    source.complete(points)
+    copy = _Copy(draft, source, links, points, mirror)
+    _draw(draft, source, copy, _moved([source.where(each) for each in points], mirror, shift))
     for old, new in copy.links.items():
-        draft.put("links", new, copy.link(draft.link(old)))
+        draft.put("links", new, copy.link(source.link(old)))
         draft.made.append(new)
     for key, joint in inside:
         draft.put("joints", *_joint(draft, copy, key, copy.element(joint)))
     for load in loads:
         draft.put_new("loads", word(load, "kind") or "load", copy.element(load))
     for old, new in copy.points.items():
-        how = word(draft.section("assembly") or MappingNode(0, 0, 0, 0), old)
+        how = word(source.section("assembly") or MappingNode(0, 0, 0, 0), old)
         if how:
             draft.put("assembly", new, SIDES.get(how, how) if mirror else how)
 
@@ -195,10 +199,10 @@ def _moved(places: list[complex], mirror: str, shift: complex) -> Callable[[comp
     return moved
 
 
-def _draw(draft: Draft, copy: _Copy, moved: Callable[[complex], complex]) -> None:
-    fixed = draft.picture()["fixed"]
+def _draw(draft: Draft, source: Draft, copy: _Copy, moved: Callable[[complex], complex]) -> None:
+    fixed = source.picture()["fixed"]
     for old, new in copy.points.items():
-        draft.draw(new, moved(draft.where(old)), fixed=old in fixed, fine=True)
+        draft.draw(new, moved(source.where(old)), fixed=old in fixed, fine=True)
         draft.made.append(new)
 
 

@@ -87,3 +87,26 @@ def test_what_is_between_chosen_links_comes_along_and_nothing_else() -> None:
         done(four.text, {"do": "paste", "items": [], "shift": [0, 0]})
     with refused("studio.no_link", name="no"):
         copied("no")
+
+
+def test_what_has_been_cut_comes_from_the_text_that_had_it() -> None:
+    """A machine that is cut and pasted, or pasted into another file, moves as it did."""
+    whole = done(NEW, *MACHINE).text
+    items = [{"kind": "link", "name": each} for each in LINKS]
+    for into in (NEW, done(NEW, *FOURBAR).text):
+        pasted = done(into, {"do": "paste", "items": items, "shift": [0.0, 0.0], "of": whole})
+        crank, rod = (next(each for each in pasted.made if each.startswith(name)) for name in ("crank", "rod"))
+        gone = [{"kind": kind, "name": name} for kind, name in _own(into)]
+        text = done(pasted.text, {"do": "remove", "items": gone}, {"do": "driver", "link": crank}).text
+        before, after = lw.loads(whole), lw.loads(text)
+        _start, end = after.link(rod).points
+        for angle in (0.9, 2.0, 4.0):
+            wanted = lw.solve_motion(before, at={"driver": angle}).point("C").position
+            assert lw.solve_motion(after, at={"driver": angle}).point(end).position == pytest.approx(
+                wanted, abs=1.5e-4
+            )
+
+
+def _own(text: str) -> list[tuple[str, str]]:
+    shown = done(text).picture
+    return [("link", each) for each in shown["links"]] + [("point", each) for each in shown["fixed"]]

@@ -5,8 +5,8 @@ import type { Item } from "../bench";
 import { plus } from "./geometry";
 import type { Board } from "./sheet";
 
-/** What has been copied, and how often it has been pasted since. */
-let copied: { items: Item[]; pasted: number } | null = null;
+/** What has been copied of which text, and how often it has been pasted since. */
+let copied: { items: Item[]; of: string; pasted: number } | null = null;
 
 export const hasCopy = () => copied !== null;
 
@@ -31,21 +31,22 @@ export function erase(board: Board): boolean {
 export function copy(board: Board): boolean {
   const items = board.bench.selection.value.filter(({ kind }) => kind === "point" || kind === "link" || kind === "pair" || kind === "load");
   if (!items.length) return false;
-  copied = { items, pasted: 0 };
+  copied = { items, of: board.bench.desk.text.value, pasted: 0 };
   return true;
 }
 
 export function cut(board: Board): boolean {
-  const done = copy(board);
-  // What is cut is gone from the text: it is pasted from a copy that was made before.
-  if (done) void board.act([{ do: "remove", items: copied!.items }]);
-  return done;
+  if (!copy(board)) return false;
+  // It is put back where it was.
+  copied!.pasted = -1;
+  return erase(board);
 }
 
 export function paste(board: Board): boolean {
   if (!copied) return false;
   copied.pasted++;
-  void put(board, copied.items, [copied.pasted * 2 * board.step, -copied.pasted * 2 * board.step]);
+  const far = 2 * copied.pasted * board.step;
+  void put(board, copied.items, [far, -far], undefined, copied.of);
   return true;
 }
 
@@ -61,8 +62,9 @@ export function mirror(board: Board): boolean {
   return true;
 }
 
-async function put(board: Board, items: Item[], shift: Vec, about?: "x" | "y"): Promise<void> {
-  const made = await board.act([{ do: "paste", items, shift, ...(about ? { mirror: about } : {}) }]);
+async function put(board: Board, items: Item[], shift: Vec, about?: "x" | "y", of = ""): Promise<void> {
+  const other = of && of !== board.bench.desk.text.value;
+  const made = await board.act([{ do: "paste", items, shift, ...(about ? { mirror: about } : {}), ...(other ? { of } : {}) }]);
   if (!made) return;
   board.bench.select(...made.map((name) => board.item(name)).filter((each) => each !== null));
 }
