@@ -32,6 +32,8 @@ DRAWING: dict[str, Message] = {
     "hint.pivot": _("Click where the frame holds the machine; a joint that you click is fixed, a pivot is freed"),
     "hint.link.first": _("Click where the link begins: a joint, a link or a free place"),
     "hint.link.next": _("Click the next joint or type its length. [Shift] keeps the angle, [Esc] ends the chain"),
+    "hint.link.tap": _("Tap the next joint, or type its length; tap the last joint again to end"),
+    "hint.plate.tap": _("Tap the next joint, or type its distances from {last} and {first}; {first} closes it"),
     "hint.plate.first": _("Click three or more joints of the plate, one after the other"),
     "hint.plate.second": _("Click the second joint or type the length of the side"),
     "hint.plate.next": _(

@@ -23,7 +23,8 @@ class LinkTool implements Tool {
   }
 
   hint(): [string] {
-    return [this.from ? "hint.link.next" : "hint.link.first"];
+    if (!this.from) return ["hint.link.first"];
+    return [this.sheet.spot?.touch ? "hint.link.tap" : "hint.link.next"];
   }
 
   down = (spot: Spot) => this.clicks.down(spot);

@@ -29,7 +29,7 @@ class PlateTool implements Tool {
     const link = this.adding;
     if (link) return ["hint.plate.add", { link }];
     const [first] = this.corners, last = this.corners[this.corners.length - 1];
-    return this.corners.length < 2 ? [first ? "hint.plate.second" : "hint.plate.first"] : ["hint.plate.next", { first: first.name, last: last.name }];
+    return this.corners.length < 2 ? [first ? "hint.plate.second" : "hint.plate.first"] : [this.sheet.spot?.touch ? "hint.plate.tap" : "hint.plate.next", { first: first.name, last: last.name }];
   }
 
   down = (spot: Spot) => this.clicks.down(spot);
