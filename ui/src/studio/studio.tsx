@@ -14,7 +14,7 @@ import { Divider } from "./frame/divider";
 import { ExerciseDialog } from "./frame/exercise";
 import { type Commands, listen } from "./frame/keys";
 import { KeySheet } from "./frame/keysheet";
-import { DOCK, followWindow, INSPECTOR, SHUT, sized } from "./frame/layout";
+import { DOCK, followWindow, INSPECTOR, NARROW, SHUT, sized } from "./frame/layout";
 import { MenuHost } from "./frame/menu";
 import { OpenDialog } from "./frame/open";
 import { Palette } from "./frame/palette";
@@ -46,7 +46,7 @@ function Room({ bench }: { bench: Bench }) {
     bench.select();
     if (/^links:/m.test(desk.text.value)) bench.tool.value = "move";
   }, [desk.opens.value]);
-  const { settings, layout } = bench, [wide, tall] = useWindow(), large = layout.value === "large", { slim } = settings.value;
+  const { settings, layout } = bench, [wide, tall] = useWindow(), large = layout.value === "large", slim = settings.value.slim ?? wide < NARROW;
   const inspector = sized(settings.value.inspector, wide, large, INSPECTOR), dock = sized(settings.value.dock, tall, large, DOCK);
   const style = { "--inspector": `${inspector}px`, "--dock": `${bench.dock.value ? dock : SHUT}px` };
   if (layout.value === "phone") return <><PhoneRoom bench={bench} /><Over bench={bench} /></>;
@@ -55,7 +55,7 @@ function Room({ bench }: { bench: Bench }) {
       <TopBar bench={bench} />
       <Strips bench={bench} />
       <nav class="edges" aria-label={bench.say("tools")}>
-        <Rail bench={bench} />
+        <Rail bench={bench} slim={slim} />
         <Divider of="inspector" label={bench.say("divider.inspector")} value={inspector} least={INSPECTOR.least} most={Math.floor(INSPECTOR.share * wide)} set={(size) => bench.set({ inspector: size })} />
         {bench.dock.value && <Divider of="dock" label={bench.say("divider.dock")} value={dock} least={DOCK.least} most={Math.floor(DOCK.share * tall)} set={(size) => bench.set({ dock: size })} />}
       </nav>

@@ -76,9 +76,9 @@ export function ToolButton({ bench, name, tabIndex, onFocus, size = 20 }: ToolPr
   );
 }
 
-export function Rail({ bench }: { bench: Bench }) {
+export function Rail({ bench, slim }: { bench: Bench; slim: boolean }) {
   const host = useRef<HTMLDivElement>(null), [at, setAt] = useState<ToolName | null>(null), first = at ?? bench.tool.value;
-  const slim = bench.settings.value.slim ?? false, fold = bench.say(slim ? "rail.names" : "rail.icons");
+  const fold = bench.say(slim ? "rail.names" : "rail.icons");
   const walk = (event: KeyboardEvent) => {
     const buttons = [...host.current!.querySelectorAll<HTMLElement>("button")], now = buttons.indexOf(document.activeElement as HTMLElement), last = buttons.length - 1;
     const next = { ArrowDown: now < last ? now + 1 : 0, ArrowUp: now > 0 ? now - 1 : last, Home: 0, End: last }[event.key];
