@@ -16,7 +16,8 @@ export function drawLoadMarks(sheet: Sheet, over: Overlay): void {
   const { bench, camera, stand } = sheet;
   if (!bench.shows("loads")) return;
   for (const each of drawnLoads(stand, camera)) {
-    anchor(over, each, stand);
+    // The sketch of a text without a machine draws every pivot.
+    if (stand.session) anchor(over, each, stand);
     const item = { kind: "load" as const, name: each.name }, on = bench.has(item), hot = bench.hovered.value?.kind === "load" && bench.hovered.value.name === each.name;
     drawOne(over, each, on || hot, stand.session !== null);
     label(over, each, stand, on);
@@ -79,7 +80,7 @@ export function between(form: DrawnLoad["form"], from: Vec, to: Vec): string {
 function label(over: Overlay, load: DrawnLoad, stand: Stand, on: boolean): void {
   const { name, form, from, to, size, acts } = load, called = GIVEN.test(name) ? "" : `${name} `, solved = stand.force(name, stand.loads[name])?.force;
   const constant = stand.loads[name].magnitude, push = stand.loads[name].preload, now = (form === "gas" || form === "cylinder") && push ? force(Math.abs(push)) : form === "arrow" && solved ? force(Math.hypot(...solved)) : size;
-  const text = `${called}${form === "arrow" && !acts ? (typeof constant === "number" ? `(${force(Math.abs(constant))})` : "") : now}`.trim(), style = on ? " strong" : "";
+  const text = `${called}${form === "arrow" && !acts ? (typeof constant === "number" ? `(${force(Math.abs(constant))})` : "") : now}`.trim().replace(" -", " −"), style = on ? " strong" : "";
   if (!text) return;
   if (form !== "arrow") {
     const [x, y] = [(from[0] + to[0]) / 2, (from[1] + to[1]) / 2], round = form === "arc" || form === "ring" || form === "twist";
