@@ -1,6 +1,6 @@
 // What the panes are made of: quantities, choices, switches, chips, sections that remember whether they are open.
 import type { ComponentChildren } from "preact";
-import { useId, useLayoutEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useId, useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { Bench } from "../bench";
 import { Icon, type IconName } from "../frame/icons";
 import { read, shownUnit, stepped, typed } from "./quantities";
@@ -8,6 +8,9 @@ import { read, shownUnit, stepped, typed } from "./quantities";
 /** Rest after the last step by arrow keys before it is written, ms. */
 const REST = 350;
 const INDEXED = /^(\p{L}{1,2}'*)_?(\d+'*)$/u;
+
+/** Where refusals are said whose field is gone. */
+export const unseen: { tell: (sentence: string) => void } = { tell: () => undefined };
 
 /** The name of a point, as drawings have it. */
 export function Sym({ name }: { name: string }) {
@@ -59,6 +62,7 @@ export function Quantity({ label, aside, ...rest }: QuantityProps) {
 export function Typing({ id, label, name, value, unit, set, follows = false, preset = "", optional = false }: Omit<QuantityProps, "aside"> & { id?: string }) {
   const [draft, setDraft] = useState<string | null>(null), [fault, setFault] = useState(""), timer = useRef(0), own = useId();
   const shown = read(value), number = shown.number || value, own_unit = shown.number ? shown.unit : value ? "" : unit, field = useRef<HTMLInputElement>(null);
+  const pending = useRef<(() => void) | null>(null), asked = useRef<string | null>(null), gone = useRef(false);
   // A value that changes elsewhere shows at once, but never under the hand.
   useLayoutEffect(() => {
     if (document.activeElement !== field.current || draft === null) {
@@ -74,10 +78,21 @@ export function Typing({ id, label, name, value, unit, set, follows = false, pre
       setDraft(null);
       return setFault("");
     }
+    if (asked.current === plain) return;
+    asked.current = plain;
     const sentence = await set(plain);
+    asked.current = null;
+    if (gone.current) return void (sentence && unseen.tell(sentence));
     setFault(sentence ?? "");
     if (!sentence) setDraft(null);
   };
+  pending.current = draft !== null && !fault ? () => void commit(draft) : null;
+  // Another element is selected before the field is left: what is typed holds.
+  useEffect(() => () => {
+    gone.current = true;
+    window.clearTimeout(timer.current);
+    pending.current?.();
+  }, []);
   const keys = (event: KeyboardEvent) => {
     const input = event.currentTarget as HTMLInputElement;
     if (event.key === "Enter") {

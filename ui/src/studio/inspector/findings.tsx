@@ -6,7 +6,7 @@ import { Icon } from "../frame/icons";
 import { quantity } from "../../words";
 import { perform, tell } from "./change";
 import { at, itemAtLine, itemOf, table, word } from "./entries";
-import { Act, Section } from "./fields";
+import { Act, Section, Sym } from "./fields";
 import { goTo } from "./text";
 
 interface Shown {
@@ -67,7 +67,7 @@ function Finding({ bench, found }: { bench: Bench; found: Shown }) {
   const name = items.length === 1 ? items[0].name : "";
   return (
     <li class={bad ? "bad" : severity === "warning" ? "warn" : ""}>
-      <h3><Icon name={bad || severity === "warning" ? "alert" : "info"} size={17} />{found.title || (name ? say("insp.finding_of", { kind: say(bad ? "insp.error" : severity === "warning" ? "insp.warning" : "insp.note"), name }) : say(bad ? "insp.error" : severity === "warning" ? "insp.warning" : "insp.note"))}</h3>
+      <h3><Icon name={bad || severity === "warning" ? "alert" : "info"} size={17} />{found.title ? <Title text={found.title} point={items.find(({ kind }) => kind === "point")?.name ?? ""} /> : (name ? say("insp.finding_of", { kind: say(bad ? "insp.error" : severity === "warning" ? "insp.warning" : "insp.note"), name }) : say(bad ? "insp.error" : severity === "warning" ? "insp.warning" : "insp.note"))}</h3>
       <p>{sentence}</p>
       {(items.length > 0 || line > 0) && (
         <p class="do">
@@ -82,6 +82,12 @@ function Finding({ bench, found }: { bench: Bench; found: Shown }) {
       ))}
     </li>
   );
+}
+
+/** A title with the name of its point as drawings have it. */
+function Title({ text, point }: { text: string; point: string }) {
+  const [before, ...after] = point ? text.split(` ${point} `) : [text];
+  return <span>{before}{after.length > 0 && <> <Sym name={point} /> {after.join(` ${point} `)}</>}</span>;
 }
 
 /** The lengths of the loop that comes apart, as bars; dashed what is missing. */

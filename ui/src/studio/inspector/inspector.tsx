@@ -1,6 +1,7 @@
 // The inspector at the right: what is selected, and tabs for numbers, findings, structure and text.
 import { useEffect, useState } from "preact/hooks";
 import { type Bench, type Tab, TABS } from "../bench";
+import { unseen } from "./fields";
 import { Findings, foundIn } from "./findings";
 import { Numbers } from "./numbers";
 import { Selected } from "./selected";
@@ -21,6 +22,7 @@ const useMedia = (query: string) => {
 };
 
 export function Inspector({ bench }: { bench: Bench }) {
+  unseen.tell = (sentence) => (bench.page.note.value = sentence);
   const large = useMedia(LARGE), [below, setBelow] = useState<Tab>("numbers"), tab = bench.tab.value;
   useEffect(() => {
     if (tab !== "inspect") setBelow(tab);

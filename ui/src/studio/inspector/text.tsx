@@ -60,9 +60,19 @@ function reach(field: HTMLTextAreaElement, line: number): void {
   field.scrollTop = Math.max(0, line * row - field.clientHeight / 2);
 }
 
+/** A new line begins as far in as the one before, further behind a key that opens a section. */
+function indent(event: KeyboardEvent, area: HTMLTextAreaElement): void {
+  const { selectionStart: from, selectionEnd: to, value } = area, line = value.slice(value.lastIndexOf("\n", from - 1) + 1, from);
+  const spaces = (/^ */.exec(line)?.[0] ?? "") + (/:\s*$/.test(line) ? "  " : "");
+  event.preventDefault();
+  area.setRangeText(`\n${spaces}`, from, to, "end");
+  area.dispatchEvent(new Event("input", { bubbles: true }));
+}
+
 /** Steps of text and drawing by the keys that undo typing elsewhere; the cursor goes where the text changes. */
 function step(bench: Bench, event: KeyboardEvent): void {
   const which = event.key.toLowerCase(), { desk } = bench, area = event.currentTarget as HTMLTextAreaElement;
+  if (which === "enter" && !event.ctrlKey && !event.metaKey && !event.isComposing) return indent(event, area);
   if (!(event.ctrlKey || event.metaKey) || (which !== "z" && which !== "y")) return;
   event.preventDefault();
   event.stopPropagation();
