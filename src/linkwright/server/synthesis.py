@@ -122,7 +122,10 @@ def _error(found: Synthesis, each: Candidate) -> str:
         return length_text(float(np.sqrt(each.error)), 3)
     if found.error_name in ("deviation", "length"):
         return length_text(each.error, 3)
-    return f"{np.degrees(each.error):.3g}°" if found.error_name in ("angle", "rest") else text
+    if found.error_name in ("angle", "rest"):
+        return f"{np.degrees(each.error):.3g}°"
+    # Of a curve it is a share of the curve's size.
+    return f"{100.0 * each.error:.2g} %" if found.error_name == "curve" else text
 
 
 def curve_data(candidate: Candidate) -> list[list[float]]:

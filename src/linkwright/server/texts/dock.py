@@ -20,6 +20,7 @@ DOCK: dict[str, Message] = SYNTHESIS | {
     "dock.turn_help": _("The input turns through, or goes from its first position to its last."),
     "dock.rock": pgettext("dock", "Rock"),
     "dock.rock_help": _("The input goes to and fro between the limits of the machine."),
+    "dock.rpm": _("{value} rpm"),
     "dock.speed_of": _("{speed} of {own}"),
     "dock.loop": _("Play again and again"),
     "dock.input": _("Input {name}: type a value to go there"),

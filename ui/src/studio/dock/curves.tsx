@@ -1,9 +1,9 @@
 // Curves over the input side by side: drawn by effects when the machine changes or moves, chosen by words, scrubbed by hand.
 import { effect } from "@preact/signals";
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
-import { type Extreme, TURN } from "../../numbers";
+import { type Extreme, isForce, TURN } from "../../numbers";
 import type { Session } from "../../session";
-import { put, write } from "../../strokes";
+import { write } from "../../strokes";
 import { digits, quantity as quantityText, unitFor } from "../../words";
 import type { Bench } from "../bench";
 import { Icon } from "../frame/icons";
@@ -107,6 +107,11 @@ function Figure({ bench, session, quantity, words, ids }: { bench: Bench; sessio
   );
 }
 
+/** Why forces are not shown of the machine as it is. */
+function withoutForces({ page }: Bench, { model, data }: Session): string {
+  return model.solver.locking ? page.say("locking") : model.solver.doubtful ? page.say("doubtful") : page.say("not_found_again", { names: data.held.join(", ") });
+}
+
 interface Drawn {
   bench: Bench;
   session: Session;
@@ -117,23 +122,26 @@ interface Drawn {
 }
 
 function Curve({ bench, session, quantity, name, value }: Drawn) {
-  const host = useRef<HTMLDivElement>(null), hover = useRef<HTMLDivElement>(null), plot = useRef<Plot | null>(null), { page } = bench, { model } = session;
+  const host = useRef<HTMLDivElement>(null), hover = useRef<HTMLDivElement>(null), missing = useRef<HTMLParagraphElement>(null), plot = useRef<Plot | null>(null), { page } = bench, { model } = session;
   const turn = quantity.what === "angle" ? TURN : 0, colour = colourOf(quantity) as "accent", size = largest(session, quantity), { factor } = unitFor(quantity.kind, size);
   const row = useRef<Float64Array>(new Float64Array(1));
   useLayoutEffect(() => {
     const drawn = (plot.current = new Plot(host.current!)), ticks = axisTicks(session);
-    let [seen, rested] = [-1, -1], peaks: Extreme[] = [];
+    let [seen, rested] = [-1, -1], peaks: Extreme[] = [], compared: unknown = null;
     const stop = effect(() => {
-      const version = session.version.value, calm = session.calm.value, place = placeOf(page.phase.value, session);
-      const changed = version !== seen || calm !== rested;
+      const version = session.version.value, calm = session.calm.value, place = placeOf(page.phase.value, session), variants = session.variants.value;
+      const changed = version !== seen || calm !== rested || variants !== compared;
+      compared = variants;
       if (version !== seen) [seen, row.current, peaks] = [version, values(session, quantity), []];
       // Extremes between the positions are sought when a hand rests.
       if (calm !== rested) [rested, peaks] = [calm, quantity.signal && !row.current.some(Number.isNaN) ? ([1, -1] as const).map((sign) => model.extreme(quantity.signal, row.current, sign)) : []];
       if (changed) {
         const before = model.differs ? valuesBefore(session, quantity) : null;
-        drawn.set({ x: model.axis.x, now: row.current, before, peaks, colour, factor, turn, limit: quantity.what === "transmission" ? GOOD : null, ticks });
+        const kept = quantity.signal ? variants.map(({ design }) => design.rows[quantity.signal]) : [];
+        drawn.set({ x: model.axis.x, now: row.current, before, kept, peaks, colour, factor, turn, limit: quantity.what === "transmission" ? GOOD : null, ticks });
         const [low, high] = [Math.min(...row.current), Math.max(...row.current)].map((x) => quantityText(x, quantity.kind, size));
         drawn.label(bench.say("dock.curve_label", { name, low, high }));
+        write(missing.current!, isForce(quantity.id.split("~")[0]) && !model.forces ? withoutForces(bench, session) : "");
       }
       const now = between(row.current, place, turn);
       drawn.cursor(place, now);
@@ -158,11 +166,11 @@ function Curve({ bench, session, quantity, name, value }: Drawn) {
     const box = host.current!.getBoundingClientRect(), said = hover.current!, left = event.clientX - box.left;
     said.hidden = false;
     write(said, lines.join("\n").replaceAll("-", "−"));
-    put(said, "data-side", left > box.width / 2 ? "left" : "right");
-    said.style.transform = `translateX(${left > box.width / 2 ? left - said.offsetWidth - 10 : left + 10}px)`;
+    said.style.transform = `translateX(${Math.max(2, Math.min(box.width - said.offsetWidth - 2, left > box.width / 2 ? left - said.offsetWidth - 10 : left + 10))}px)`;
   };
   return (
     <div class="chart-host" ref={host} onPointerDown={scrub} onPointerMove={scrub} onPointerLeave={() => (hover.current!.hidden = true)}>
+      <p class="plot-missing" ref={missing} />
       <div class="plot-hover" hidden ref={hover} />
     </div>
   );

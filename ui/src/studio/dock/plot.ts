@@ -9,6 +9,8 @@ export interface Shown {
   x: ArrayLike<number>;
   now: ArrayLike<number>;
   before: ArrayLike<number> | null;
+  /** Kept variants. */
+  kept: ArrayLike<number>[];
   /** Extremes between the positions. */
   peaks: Extreme[];
   colour: Colour;
@@ -22,6 +24,8 @@ export interface Shown {
 }
 
 const LEFT = 44, RIGHT = 10, TOP = 10, BOTTOM = 20, FONT = 11, NEAR = 0.1;
+/** Colours of kept variants, in their order. */
+const KEPT = ["a", "b", "c", "d"] as const;
 /** Share of the scale's height below which numbers at the axis would cover each other. */
 const APART = 14;
 
@@ -126,6 +130,7 @@ export class Plot {
     stroke(new Path2D(shown.ticks.map(({ share }) => `M${this.u(share)} ${TOP}V${floor}`).join("")), colour["grid-major"], 1);
     stroke(new Path2D(`M${LEFT} ${TOP}V${floor}H${end}${zero ? `M${LEFT} ${this.v(0)}H${end}` : ""}`), colour.axis, 1);
     if (shown.before) stroke(this.path(shown.before, shown, []), colour.soft, 1.3, [4, 3]);
+    shown.kept.forEach((values, k) => stroke(this.path(values, shown, []), colour[KEPT[k % KEPT.length]], 1.1));
     stroke(this.path(shown.now, shown, shown.peaks), colour[shown.colour], 1.9);
     const { limit } = shown, bar = limit !== null && limit > low && limit < high;
     if (bar) stroke(new Path2D(`M${LEFT} ${this.v(limit)}H${end}`), colour.bad, 1.2, [3, 3]);
@@ -196,13 +201,13 @@ export function valueAt(values: ArrayLike<number>, i: number, turn: number): num
 }
 
 /** The scale of a diagram. */
-function reach({ x, now, before, peaks, turn, limit }: Shown): [number, number] {
+function reach({ x, now, before, kept, peaks, turn, limit }: Shown): [number, number] {
   let [low, high] = [Infinity, -Infinity];
   const take = (y: number) => {
     if (y < low) low = y;
     if (y > high) high = y;
   };
-  for (const values of before ? [now, before] : [now]) for (let i = 0; i < x.length; i++) take(valueAt(values, i, turn));
+  for (const values of [now, ...kept, ...(before ? [before] : [])]) for (let i = 0; i < x.length; i++) take(valueAt(values, i, turn));
   for (const { value } of peaks) take(value);
   if (!(high >= low)) return [0, 1];
   // A limit is shown where the curve comes near it.

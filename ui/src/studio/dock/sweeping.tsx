@@ -144,7 +144,7 @@ function Chart({ bench, session, figure, swept, dimension }: { bench: Bench; ses
   useLayoutEffect(() => {
     const said = (x: number) => `${digits(x / dimension.factor, 3)}${dimension.unit === "deg" ? "°" : ""}`;
     plot.current!.set({
-      x: values, now: row, before: null, peaks: [], colour: COLOURS.find(([each]) => each.test(sort))?.[1] ?? "accent", factor: unitFor(figure.quantity, size).factor, turn: 0,
+      x: values, now: row, before: null, kept: [], peaks: [], colour: COLOURS.find(([each]) => each.test(sort))?.[1] ?? "accent", factor: unitFor(figure.quantity, size).factor, turn: 0,
       limit: figure.kind === "least" && sort.startsWith("m:") ? GOOD : null, ticks: [0, 0.5, 1].map((share) => ({ share, text: said(values[0] + share * (values[last] - values[0])) })),
     });
     plot.current!.label(name);

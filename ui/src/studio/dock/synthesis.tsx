@@ -23,7 +23,7 @@ export function Synthesis({ bench }: { bench: Bench }) {
   }, [target]);
   const name = chosen.value || CURVE, task = tasks.find((each) => each.name === name);
   return (
-    <div class="synthesis">
+    <div class={name === CURVE ? "synthesis of-curve" : "synthesis"}>
       <div class="synthesis-form">
         <label class="task-field task-choice">
           <span class="unseen">{say("dock.task")}</span>
@@ -44,7 +44,7 @@ function OfTarget({ bench }: { bench: Bench }) {
   const target = bench.target.value, running = bench.desk.sought.value?.running && bench.desk.sought.value.kind === "curve", [before, after] = bench.say("dock.task_help.curve").split("[U]");
   return (
     <div class="task">
-      <p class="help">{before}<kbd>U</kbd>{after}</p>
+      {!target && <p class="help">{before}<kbd>U</kbd>{after}</p>}
       <button class={target ? "quietly" : "solid"} onClick={() => (bench.tool.value = "target")}><Icon name="target" size={18} />{bench.say("dock.draw_target")}</button>
       {target && <button class="solid" disabled={running} onClick={() => void bench.desk.search("curve", { points: target.points, closed: target.closed })}>{bench.say("dock.search_again")}</button>}
     </div>
@@ -97,6 +97,7 @@ function Card({ bench, candidate, number, target }: { bench: Bench; candidate: C
     leave();
     if (desk.sought.value?.running) void desk.enough();
     desk.change(candidate.text);
+    void desk.solve().then(() => bench.sheet.value?.fit());
   };
   return (
     <li>

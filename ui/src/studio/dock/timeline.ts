@@ -15,7 +15,7 @@ export interface Stretch {
 
 const DEGREE = Math.PI / 180;
 // Steps of ticks in degrees; the most pieces that ticks make; what a tick keeps off the ends of the track.
-const STEPS = [5, 10, 15, 30, 45, 60, 90, 180, 360, 720, 1440], PIECES = 5, CLEAR = 0.07;
+const STEPS = [5, 10, 15, 30, 45, 60, 90, 180, 360, 720, 1440], PIECES = 5, CLEAR = 0.11;
 
 /** Steps of 1, 2 and 5 that make at most `PIECES` pieces of a range. */
 function decimal(range: number): number {

@@ -76,19 +76,19 @@ function Cycle({ bench }: { bench: Bench }) {
   };
   return (
     <div class="segment" role="group" aria-label={bench.say("dock.cycle")}>
-      <button aria-pressed={!rock} title={bench.say("dock.turn_help")} onClick={() => choose(false)}><Icon name="turn" size={16} />{bench.say("dock.turn")}</button>
-      <button aria-pressed={rock} title={bench.say("dock.rock_help")} onClick={() => choose(true)}><Icon name="rock" size={16} />{bench.say("dock.rock")}</button>
+      <button aria-pressed={!rock} data-tip={bench.say("dock.turn_help")} onClick={() => choose(false)}><Icon name="turn" size={16} />{bench.say("dock.turn")}</button>
+      <button aria-pressed={rock} data-tip={bench.say("dock.rock_help")} onClick={() => choose(true)}><Icon name="rock" size={16} />{bench.say("dock.rock")}</button>
     </div>
   );
 }
 
 function Speed({ bench, session }: { bench: Bench; session: Session }) {
   const { page } = bench, { rpm, seconds } = pace(session.data);
-  const own = bench.layout.value === "phone" ? "" : rpm !== null ? `${digits(rpm, 4)} rpm` : seconds !== null ? quantity(seconds, "time", 1, 2) : "";
+  const own = bench.layout.value === "phone" ? "" : rpm !== null ? bench.say("dock.rpm", { value: digits(rpm, 4) }) : seconds !== null ? quantity(seconds, "time", 1, 2) : "";
   const said = (each: number) => (own ? bench.say("dock.speed_of", { speed: `${each}×`, own }) : `${each}×`);
   return (
     <>
-      <button class="square" aria-pressed={page.loop.value} aria-label={bench.say("dock.loop")} title={bench.say("dock.loop")} onClick={() => (page.loop.value = !page.loop.value)}><Icon name="loop" /></button>
+      <button class="square" aria-pressed={page.loop.value} aria-label={bench.say("dock.loop")} data-tip={bench.say("dock.loop")} onClick={() => (page.loop.value = !page.loop.value)}><Icon name="loop" /></button>
       <label class="speed">
         <select aria-label={page.say("speed")} value={page.pace.value} onChange={(event) => (page.pace.value = Number(event.currentTarget.value))}>
           {SPEEDS.map((each) => <option key={each} value={each}>{said(each)}</option>)}
@@ -175,9 +175,9 @@ function Transport({ bench, session }: { bench: Bench; session: Session }) {
   const playing = page.playing.value;
   return (
     <>
-      <button class="play" aria-label={page.say(playing ? "pause" : "play")} title={page.say(playing ? "pause" : "play")} onClick={() => page.play(!playing)}><Icon name={playing ? "pause" : "play"} /></button>
+      <button class="play" aria-label={page.say(playing ? "pause" : "play")} data-tip={page.say(playing ? "pause" : "play")} data-keys="Space" onClick={() => page.play(!playing)}><Icon name={playing ? "pause" : "play"} /></button>
       <input
-        ref={field} class="at" spellcheck={false} autocomplete="off" aria-label={bench.say("dock.input", { name })} title={bench.say("dock.input", { name })}
+        ref={field} class="at" spellcheck={false} autocomplete="off" aria-label={bench.say("dock.input", { name })} data-tip={bench.say("dock.input", { name })}
         onFocus={(event) => { page.play(false); event.currentTarget.select(); }} onChange={type}
         onKeyDown={(event) => {
           if (event.key === "Enter") event.currentTarget.blur();
@@ -251,7 +251,7 @@ function Stuck({ bench }: { bench: Bench }) {
   };
   return (
     <>
-      <button class="play" disabled={!possible.length} aria-label={page.say("play")} title={bench.say("dock.rock_help")} onClick={() => void rock()}><Icon name="play" /></button>
+      <button class="play" disabled={!possible.length} aria-label={page.say("play")} data-tip={bench.say("dock.rock_help")} onClick={() => void rock()}><Icon name="play" /></button>
       <output class="at">{here === null ? "–" : shown(here, turns, size)}</output>
       <Track role="img" aria-label={bench.say("dock.possible_between", { ranges: gap.possible.map((each) => each.map((x) => `${digits(x, 3)}${turns ? "°" : " mm"}`).join(" … ")).join(", ") || "–" })} {...partsOf(bench, gap, range)}>
         {here !== null && <div class="thumb" style={at(range.share(here))} />}
