@@ -398,7 +398,7 @@ export class Desk {
       return;
     }
     if (!solved.model && this.moved?.text === text) return this.refuse(this.moved.before, solved);
-    if (solved.picture && this.solved.value.picture) hold(solved.picture, this.solved.value.picture);
+    if (solved.picture) hold(solved.picture, this.solved.value.picture);
     this.solved.value = { ...solved, text };
     if (!solved.model) return;
     const session = new Session(solved.model, await code(solved.model), 0), old = this.session.value;
@@ -523,7 +523,7 @@ export class Desk {
 
   /** Shows what is drawn now, before it is solved. */
   private draw({ picture }: Edited): void {
-    if (this.solved.value.picture) hold(picture, this.solved.value.picture);
+    hold(picture, this.solved.value.picture);
     this.solved.value = { ...this.solved.value, picture };
   }
 
@@ -561,11 +561,13 @@ function withPlaces(actions: Action[], picture: Picture | undefined): Action[] {
   return placed.length ? actions.map((each) => Object.assign({}, each, { places: Object.assign({}, places, each.places) })) : actions;
 }
 
-/** Points that lengths have placed stay where they were while a text is written that no machine comes of. */
-function hold(picture: Picture, { placed = [], points }: Picture): void {
-  const used = new Set(Object.values(picture.links).flat()), held = placed.filter((point) => used.has(point) && !(point in picture.points));
-  for (const point of held) picture.points[point] = points[point];
-  picture.placed = [...(picture.placed ?? []), ...held];
+/** Points that lengths have placed stay where they were while a text is written that no machine comes of; others are
+ *  where their lengths would have them. */
+function hold(picture: Picture, old?: Picture): void {
+  const used = new Set(Object.values(picture.links).flat()), before = Object.fromEntries((old?.placed ?? []).filter((point) => used.has(point)).map((point) => [point, old!.points[point]]));
+  const held = Object.entries({ ...picture.sketched, ...before }).filter(([point]) => !(point in picture.points));
+  Object.assign(picture.points, Object.fromEntries(held));
+  picture.placed = [...(picture.placed ?? []), ...held.map(([point]) => point)];
 }
 
 /** Puts a machine back where its text has it. */

@@ -15,6 +15,8 @@ export interface Picture {
   drives?: Record<string, Drive>;
   /** Points that are where the solved machine has them, by its dimensions. */
   placed?: string[];
+  /** Where points could stand that only lengths place, of a text that makes no machine. */
+  sketched?: Record<string, [number, number]>;
   /** Links that no places of their points make as long as they are written. */
   unmet?: string[];
 }

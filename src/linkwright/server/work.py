@@ -14,7 +14,7 @@ from linkwright.file_check import checked_text
 from linkwright.files.model_file import gallery_names, read_text
 from linkwright.files.source import read_source
 from linkwright.files.write import Document
-from linkwright.server.agreement import unmet
+from linkwright.server.agreement import agree, unmet
 from linkwright.server.background import Background
 from linkwright.server.draft import Draft
 from linkwright.server.edits import edited
@@ -25,6 +25,7 @@ from linkwright.server.moved import gap_data, moved
 from linkwright.server.outline import outline
 from linkwright.server.picture import completed
 from linkwright.server.request import mapping, mappings, number, numbers, text
+from linkwright.server.sketching import sketched
 from linkwright.server.structure import structure_of
 from linkwright.server.unfinished import in_earnest, unfinished
 from linkwright.words import LANGUAGES, _, pgettext
@@ -189,10 +190,12 @@ def new_text(language: str = "en") -> str:
 
 
 def _changed(text: str, values: Mapping[str, float]) -> str:
-    """The text with changed dimensions, SI."""
+    """The text with changed dimensions, SI, and with them what is drawn."""
     from linkwright.designs.varied_dimensions import changed_text
 
-    return changed_text(Document(text, "model", read_text), values)
+    draft = Draft(changed_text(Document(text, "model", read_text), values))
+    agree(draft)
+    return draft.text
 
 
 def solved(text: str, language: str, folder: str = "") -> Plain:
@@ -228,6 +231,8 @@ def solved(text: str, language: str, folder: str = "") -> Plain:
             found["model"] = page_data([(motion, text)], language)["models"][0]
     except LinkwrightError as error:
         found["sentence"] = "" if found["gap"] or unfinished(error.code) else error.translate(language)
+    if found["model"] is None and "picture" in found:
+        found["picture"]["sketched"] = sketched(draft)
     found["findings"] = [_finding(each, language) for each in in_earnest(findings, told=told)]
     return found
 

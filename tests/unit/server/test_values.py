@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -12,6 +13,8 @@ from tests.refusals import refused
 from tests.unit.server.drawing import FOURBAR, NEW, done
 
 import linkwright as lw
+from linkwright.server.files import Files
+from linkwright.server.work import Work
 
 
 def put(path: list[str], value: Any) -> dict[str, Any]:
@@ -77,3 +80,15 @@ def test_a_machine_by_lengths_alone_gets_no_drawing_when_a_length_is_set() -> No
     now = done(text, {**put(["links", "coupler", "length"], "3.7 m"), "places": places})
     changed = [line for line, new in zip(text.splitlines(), now.text.splitlines(), strict=True) if line != new]
     assert changed == [next(each for each in text.splitlines() if each.startswith("  coupler: {points"))]
+
+
+def test_dimensions_that_are_set_take_the_drawing_along(tmp_path: Path) -> None:
+    """As sliders, sweeps and optimisations write them."""
+    text = done(NEW, *FOURBAR).text
+    changed = Work(Files(tmp_path)).answers["set"]({"text": text, "values": {"crank.length": 0.04}})["text"]
+    picture = done(changed).picture
+    assert math.hypot(*picture["points"]["A"]) == pytest.approx(0.04, abs=2e-5)
+    assert picture["unmet"] == []
+    whole = store.text("crank_rocker")
+    one = Work(Files(tmp_path)).answers["set"]({"text": whole, "values": {"crank.length": 0.9}})["text"]
+    assert len([1 for a, b in zip(whole.splitlines(), one.splitlines(), strict=True) if a != b]) == 1
