@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import struct
+import zlib
 from pathlib import Path
 from typing import Any
 
@@ -149,3 +151,36 @@ def test_a_closed_curve_opens_the_synthesis(chromium: Any, tmp_path: Path) -> No
         ends = [min(math.dist(corner, place) for place in target["points"]) for corner in corners]
         assert max(ends) < 1e-3
         drawn.tab.evaluate("() => desk.enough()")
+
+
+def picture(folder: Path) -> Path:
+    """A grey picture of 40 by 20 pixels."""
+    rows = zlib.compress(b"".join(b"\0" + b"\x80" * 40 for _ in range(20)))
+    chunks = ((b"IHDR", struct.pack(">IIBBBBB", 40, 20, 8, 0, 0, 0, 0)), (b"IDAT", rows), (b"IEND", b""))
+    whole = [
+        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        for kind, data in chunks
+    ]
+    path = folder / "grey.png"
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + b"".join(whole))
+    return path
+
+
+def test_a_photo_is_brought_to_scale_and_kept_with_the_drawing(chromium: Any, tmp_path: Path) -> None:
+    with hand(chromium, tmp_path, press(tmp_path)) as drawn:
+        with drawn.tab.expect_file_chooser() as chooser:
+            drawn.take("photo")
+        chooser.value.set_files(picture(tmp_path))
+        drawn.tab.wait_for_function("() => bench.photo.value")
+        drawn.frame()
+        before = drawn.tab.evaluate("() => bench.photo.value.width")
+        drawn.click((0.0, 0.0), (0.08, 0.06))
+        drawn.type("250")
+        drawn.frame()
+        found = drawn.tab.evaluate("() => bench.photo.value")
+        assert found["width"] == pytest.approx(before * 0.25 / 0.1, rel=0.02)
+        assert found["locked"]
+        drawn.tab.reload()
+        drawn.tab.wait_for_function("() => globalThis.bench?.photo.value")
+        assert drawn.tab.evaluate("() => bench.photo.value.width") == found["width"]
+        assert drawn.tab.locator("image.photo").get_attribute("href").startswith("data:image/jpeg")

@@ -47,6 +47,10 @@ export function First({ board }: { board: Board }) {
     bench.tool.value = tool;
     board.host.focus();
   };
+  const begin = (machine: string) => {
+    bench.tool.value = "move";
+    void bench.desk.open({ gallery: machine });
+  };
   return (
     <section class="first-steps" aria-labelledby="first-title">
       <h1 id="first-title">{say("first")}</h1>
@@ -68,7 +72,7 @@ export function First({ board }: { board: Board }) {
       <ul class="machine-cards">
         {Object.keys(MACHINES).map((machine) => (
           <li key={machine}>
-            <button class="machine-card" onClick={() => void bench.desk.open({ gallery: machine })}>
+            <button class="machine-card" onClick={() => begin(machine)}>
               <Strokes size={[132, 74]} strokes={MACHINES[machine]} />
               <span>{say(`first.${machine}`)}</span>
             </button>
