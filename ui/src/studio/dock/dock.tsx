@@ -1,6 +1,7 @@
 // The dock below the sheet: the time line, and curves, sweep, synthesis, optimisation and comparison behind tabs.
 import { useEffect } from "preact/hooks";
 import type { Session } from "../../session";
+import { drawnPhase } from "../sheet/drawn";
 import { type Bench, type DockName, DOCKS } from "../bench";
 import { Compare } from "./compare";
 import { Curves, CurvesHead } from "./curves";
@@ -47,9 +48,8 @@ let opened = "";
 
 /** The first machine of a file: shown where it is drawn, at a speed that can be looked at, with its curves. */
 function begin({ page, dock }: Bench, session: Session): void {
-  const { count, closed } = session.data.positions;
   [page.paced, page.pace.value] = [true, beginning(session)];
-  page.phase.value = Math.max(0, session.data.drawing.at) / (closed ? count : count - 1);
+  page.phase.value = drawnPhase(session);
   if (session.data.signals.length) dock.value ??= "curves";
 }
 

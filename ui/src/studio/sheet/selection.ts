@@ -1,5 +1,4 @@
 // What is done to the selected elements: removed, copied, moved by steps, mirrored.
-import type { Action } from "../../picture";
 import type { Vec } from "../../shapes";
 import type { Item } from "../bench";
 import { plus } from "./geometry";
@@ -74,19 +73,19 @@ export function pointsOf({ scene }: Board, items: Item[]): string[] {
   return [...new Set(items.flatMap(({ kind, name }) => (kind === "link" ? scene.links[name] ?? [] : kind === "point" ? [name] : [])))].filter((name) => scene.points.has(name));
 }
 
-/** Moves the selected elements by a way. */
+/** Steps that are on their way into the text. */
+let steps = 0;
+
+/** Moves the selected elements by a way from where they are drawn; numbers that are locked stay. */
 export function nudge(board: Board, way: Vec): boolean {
-  const points = pointsOf(board, board.bench.selection.value);
-  if (!points.length) return false;
-  void board.act([moved(board, points, way)]);
+  const names = pointsOf(board, board.bench.selection.value);
+  if (!names.length) return false;
+  if (!steps) board.toDrawn();
+  board.touch();
+  // The next step goes on from here, though this one is not in the text yet.
+  const points = Object.fromEntries(names.map((name) => [name, plus(board.scene.at(name)!, way)]));
+  board.lift({ ...board.lifted, ...points });
+  steps++;
+  void board.act([{ do: "move", points, locked: [...board.bench.locked.value] }]).finally(() => --steps || board.lift(null));
   return true;
 }
-
-/** The action that moves points by a way from where they are drawn; numbers that are locked stay. */
-function moved(board: Board, points: string[], way: Vec): Action {
-  board.toDrawn();
-  board.touch();
-  const { scene, bench } = board;
-  return { do: "move", points: Object.fromEntries(points.map((name) => [name, plus(scene.at(name)!, way)])), locked: [...bench.locked.value] };
-}
-

@@ -10,6 +10,7 @@ import type { Gap } from "../outline";
 import { MAKE } from "../tools";
 import type { Overlay, Sheet, Spot, Tool } from "../tools/tool";
 import { Camera, FULL } from "./camera";
+import { drawnPhase, isDrawn } from "./drawn";
 import { boxOf, comeApart } from "./gap";
 import { heading } from "./geometry";
 import { Grid, spacing } from "./grid";
@@ -59,7 +60,8 @@ export class Board implements Sheet {
   private standing: Stand | null = null;
   /** What could be drawn of the text that the machine is of; how it differs from what can be drawn now. */
   private own: Picture | undefined;
-  private compared: { own: Picture; now: Picture; how: "same" | "more" | "other" } | null = null;
+  private shown: Session | null = null;
+  private compared: { own: Picture; now: Picture; how: Change } | null = null;
   private fitting = true;
   /** Whether the sheet shows all as it did when the file was opened: it goes on to while regions about it take their places. */
   private whole = true;
@@ -119,6 +121,10 @@ export class Board implements Sheet {
 
   private show(session: Session | null): void {
     if (this.view?.model === session?.model) return;
+    // What was shown as it is drawn stays so, wherever that is in the cycle of the new machine.
+    const { page } = this.bench, phase = page.phase.peek(), drawn = !this.shown || !this.base || isDrawn(this.shown, phase);
+    if (session && drawn && !page.playing.peek()) page.phase.value = drawnPhase(session);
+    this.shown = session;
     this.view?.end();
     this.view?.svg.remove();
     this.view = session ? new View(session.model, this.machine, session.shown, this.camera) : null;
@@ -138,9 +144,11 @@ export class Board implements Sheet {
     if (!session) return null;
     if (!now || now === own || !own) return { session, added: null };
     if (this.compared?.own !== own || this.compared.now !== now)
-      this.compared = { own, now, how: !grown(own, now) ? "other" : grown(now, own) ? "same" : "more" };
+      this.compared = { own, now, how: compare(own, now) };
     const { how } = this.compared;
-    return how === "other" ? null : { session, added: how === "more" ? own : null };
+    // Where it is not shown as it is drawn, other places are seen once they are solved.
+    const waits = how === "moved" && !isDrawn(session, this.bench.page.phase.peek());
+    return how === "other" || (how === "moved" && !waits) ? null : { session, added: how === "more" ? own : null };
   }
 
   get scene(): Scene {
@@ -159,7 +167,7 @@ export class Board implements Sheet {
     const { bench } = this, { page, desk } = bench, { gap, text } = desk.solved.value, session = bench.session.value;
     if (!gap?.drawn || text !== desk.text.value || page.playing.value) return null;
     const phase = page.phase.value;
-    return !session || phase === 0 || Math.abs(phase - drawnPhase(session)) < 1e-9 ? gap : null;
+    return !session || phase === 0 || isDrawn(session, phase) ? gap : null;
   }
 
   /** The machine that the present text makes; null where it makes none, or none yet. */
@@ -438,20 +446,22 @@ export class Board implements Sheet {
   }
 }
 
-/** Whether a picture has all that another one had, where it was. */
+/** How a picture differs from another one: not at all, by what has been added, by its places alone, or otherwise. */
+type Change = "same" | "more" | "moved" | "other";
+
+function compare(old: Picture, now: Picture): Change {
+  if (!grown(old, now)) return "other";
+  const more = !grown(now, old), near = ([a, b]: Vec, [c, d]: Vec) => Math.hypot(a - c, b - d) < 1e-6;
+  const stays = Object.entries(old.points).every(([name, at]) => near(at, now.points[name]));
+  return stays ? (more ? "more" : "same") : more ? "other" : "moved";
+}
+
+/** Whether a picture has all that another one had, wherever that is. */
 function grown(old: Picture, now: Picture): boolean {
-  const near = ([a, b]: Vec, [c, d]: Vec) => Math.hypot(a - c, b - d) < 1e-6;
   return (
-    Object.entries(old.points).every(([name, at]) => name in now.points && near(at, now.points[name])) &&
+    Object.keys(old.points).every((name) => name in now.points) &&
     old.fixed.every((name) => now.fixed.includes(name)) && old.guided.every((name) => now.guided.includes(name)) &&
     Object.entries(old.links).every(([name, points]) => now.links[name]?.join() === points.join()) &&
     Object.keys(old.loads).every((name) => name in now.loads)
   );
-}
-
-/** Where in its cycle a machine is as it is drawn. */
-export function drawnPhase({ data }: Session): number {
-  const { steady, count, closed } = data.positions, { input, at } = data.drawing;
-  const place = steady && input !== null ? (input - steady.start) / steady.step : at, whole = closed ? count : count - 1;
-  return closed ? (((place / whole) % 1) + 1) % 1 : Math.min(1, Math.max(0, place / whole));
 }
