@@ -50,6 +50,9 @@ class Desk {
       bench, camera: this.camera, scene: this.scene, redraw() {}, take() {}, refuse: (key: string) => this.said.push(key),
       act: (actions: Action[]) => {
         if (this.admits) this.done.push(actions);
+        for (const { places, point, at: there } of this.admits ? (actions as unknown as { places?: Record<string, Vec>; point?: string; at?: Vec }[]) : [])
+          for (const [each, place] of Object.entries({ ...places, ...(point && there && { [point]: there }) }))
+            this.scene.points.set(each, { name: each, key: "", at: place, fixed: false, links: [] });
         return Promise.resolve(this.admits ? ["made"] : null);
       },
     };
@@ -168,6 +171,7 @@ test("Escape at every step leaves the text as it was, and the tool as it was", a
       assert.equal(desk.tool.anchor?.() ?? null, null);
       desk.done.length = 0;
       desk.selection = [];
+      for (const point of desk.scene.points.keys()) if (!(point in PICTURE.points)) desk.scene.points.delete(point);
       await desk.steps(steps);
       assert.deepEqual(rounded(desk.done), rounded(made), `${name} once more: ${what}`);
     }
@@ -206,6 +210,16 @@ test("what the text does not admit is in hand again", async () => {
   await desk.step(NOWHERE);
   assert.deepEqual(desk.done, [[{ do: "link", points: ["B", "E"], places: { E: at(...NOWHERE) } }]]);
   assert.deepEqual(desk.selection, [{ kind: "link", name: "made" }]);
+});
+
+test("after an undo a chain goes on from the joint before", async () => {
+  const desk = await new Desk("link").steps([B, NOWHERE, [-60, 160]]);
+  assert.deepEqual(desk.tool.anchor!(), at(-60, 160));
+  desk.scene.points.delete("F");
+  assert.deepEqual(desk.tool.anchor!(), at(...NOWHERE));
+  desk.scene.points.delete("E");
+  desk.scene.points.delete("B");
+  assert.equal(desk.tool.anchor!(), null);
 });
 
 test("a drag draws a link from where it begins to where it ends", async () => {

@@ -13,6 +13,8 @@ class LinkTool implements Tool {
   private readonly values: TypedValues;
   /** Where the link in hand begins. */
   private from: End | null = null;
+  /** Where the links before it began. */
+  private before: End[] = [];
   /** The direction of the link before, while the pointer says none. */
   private along = 0;
   /** Names that are not in the drawing yet. */
@@ -23,6 +25,7 @@ class LinkTool implements Tool {
   }
 
   hint(): [string] {
+    this.look();
     if (!this.from) return ["hint.link.first"];
     return [this.sheet.spot?.touch ? "hint.link.tap" : "hint.link.next"];
   }
@@ -49,6 +52,7 @@ class LinkTool implements Tool {
   }
 
   anchor(): Vec | null {
+    this.look();
     return this.start;
   }
 
@@ -68,14 +72,20 @@ class LinkTool implements Tool {
     return this.from && (this.sheet.scene.at(this.from.name) ?? this.from.at);
   }
 
+  /** After an undo the chain goes on from its last joint that is there. */
+  private look(): void {
+    while (this.from && !this.from.made && !this.sheet.scene.at(this.from.name) && !this.coming.includes(this.from.name)) this.from = this.before.pop() ?? null;
+  }
+
   private drop(): boolean {
     const begun = this.from !== null;
-    this.from = null;
+    [this.from, this.before] = [null, []];
     this.sheet.redraw();
     return begun;
   }
 
   private click(spot: Spot): void {
+    this.look();
     if (!this.from) {
       this.from = endAt(spot, this.sheet.scene, this.coming);
       this.sheet.redraw();
@@ -112,6 +122,7 @@ class LinkTool implements Tool {
     const link = { do: "link", points: ends.map(({ name }) => name), places, ...(length && { length }) };
     this.values.clear();
     this.along = heading(this.start!, to.at);
+    this.before.push({ ...from, made: false, on: null });
     this.from = { ...to, made: false, on: null };
     this.sheet.redraw();
     void this.make(from, to, [...ends.flatMap(dropped), link]);
@@ -124,7 +135,7 @@ class LinkTool implements Tool {
     this.coming = this.coming.filter((each) => !names.includes(each));
     if (made?.length) this.sheet.bench.selectMade({ kind: "link", name: made[made.length - 1] });
     // What the drawing did not admit is not there to go on from.
-    else if (!made && this.from?.name === to.name) this.from = from;
+    else if (!made && this.from?.name === to.name) [this.from, this.before] = [from, this.before.slice(0, -1)];
     this.sheet.redraw();
   }
 

@@ -6,8 +6,9 @@ import { reads } from "./typed";
 
 // Radius of the arc of an angle, length of the line that it begins at, distance of a dimension line; joints and blocks, px.
 const ARC = 40, REFERENCE = 52, OFF = 26, PIN = 5, BLOCK: Vec = [16, 9], GUIDE = 400;
-// An element shorter than this on the screen has no angle, one shorter than twice this no dimension line.
-const SHORT = 14;
+// An element shorter than this on the screen has no angle, one shorter than twice this no dimension line, a long one
+// has room for its dimension beside the arc.
+const SHORT = 14, LONG = 120;
 
 export const line = (...places: Vec[]) => places.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
 
@@ -15,14 +16,18 @@ export const line = (...places: Vec[]) => places.map(([x, y], k) => `${k ? "L" :
 export function inHand(over: Overlay, sheet: Sheet, from: Vec, to: Vec, angle = true): void {
   const [a, b] = [from, to].map((each) => sheet.camera.screen(each)), { unit } = sheet.bench.settings.value;
   over.path(line(a, b), "ghost thick");
-  if (distance(a, b) > 2 * SHORT) over.dimension(a, b, reads(distance(from, to), "length", unit), "hand strong", side(a, b));
+  if (distance(a, b) > 2 * SHORT) over.dimension(a, b, reads(distance(from, to), "length", unit), "hand strong", side(sheet, a, b));
   if (angle && distance(a, b) > SHORT) arc(over, a, Math.atan2(to[1] - from[1], to[0] - from[0]));
   joint(over, b);
 }
 
-/** The dimension stands on the side where the arc of the angle is not. */
-function side(a: Vec, b: Vec): number {
-  return b[1] < a[1] ? OFF : -OFF;
+/** The side of a dimension: away from the drawing, as lengths stand in it; of a short element where the arc of its angle is not. */
+function side(sheet: Sheet, a: Vec, b: Vec): number {
+  const clear = b[1] < a[1] ? OFF : -OFF, all = [...sheet.scene.points.values()].map(({ at }) => sheet.camera.screen(at));
+  if (distance(a, b) < LONG || !all.length) return clear;
+  const [x, y] = [0, 1].map((k) => all.reduce((sum, each) => sum + each[k], 0) / all.length);
+  const across = ((b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])) / distance(a, b);
+  return Math.abs(across) < OFF ? clear : Math.sign(across) * OFF;
 }
 
 /** The angle of a direction from the horizontal, at a place of the screen. */

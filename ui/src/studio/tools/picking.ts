@@ -133,7 +133,8 @@ class PickTool implements Tool, Hand {
     const made = await this.sheet.act([...picked.flatMap(({ before }) => before), ...actions]);
     if (made) {
       if (!this.picked.length) this.values.clear();
-      if (made.length) bench.selectMade({ kind: this.picks.makes, name: made[made.length - 1] });
+      const last = picked[picked.length - 1].name;
+      bench.selectMade(made.length ? { kind: this.picks.makes, name: made[made.length - 1] } : { kind: "point", name: last });
     } else if (!this.picked.length) this.picked = this.picks.last ? picked : picked.slice(0, -1);
     this.sheet.redraw();
   }
