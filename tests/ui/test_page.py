@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import base64
 import math
 import re
+import zlib
 from pathlib import Path
 from typing import Any
 
@@ -361,6 +363,18 @@ def test_a_link_carries_the_dimensions(opened: Opened) -> None:
     assert opened.values()["crank.length"] == start * 0.9
     opened.open(path, "#0.crank.length=nonsense&7.x=1&0.%E0%A4%A=2&0.unknown=3")
     assert opened.values()["crank.length"] == start
+
+
+def test_the_model_goes_to_a_studio_in_a_link_with_its_changed_numbers(opened: Opened) -> None:
+    opened.open(page("crank_rocker"))
+    opened.run("s => s.take({...s.model.values, 'crank.length': 0.9})")
+    opened.tab.evaluate("navigator.clipboard.writeText = async (text) => { globalThis.copied = text; }")
+    opened.button("page.studio").click()
+    opened.tab.wait_for_function("() => globalThis.copied")
+    packed = opened.tab.evaluate("globalThis.copied").partition("#model=")[2]
+    text = zlib.decompress(base64.urlsafe_b64decode(packed + "=" * (-len(packed) % 4)), -15).decode()
+    assert "length: 0.9 m" in text
+    assert opened.tab.locator(".said").inner_text() == opened.translate("page.studio_copied")
 
 
 ITERATED = ("triad", "class_four_group", "fourth_order_group", "rack_and_rocker", "stephenson_sixbar_triad", "wedge")

@@ -45,6 +45,7 @@ function Room({ bench }: { bench: Bench }) {
     // Another file: nothing of the one before is selected or in hand; what is drawn already is moved first.
     bench.select();
     if (/^links:/m.test(desk.text.value)) bench.tool.value = "move";
+    else bench.dock.value = null;
   }, [desk.opens.value]);
   const { settings, layout } = bench, [wide, tall] = useWindow(), large = layout.value === "large", slim = settings.value.slim ?? wide < NARROW;
   const inspector = sized(settings.value.inspector, wide, large, INSPECTOR), dock = sized(settings.value.dock, tall, large, DOCK);
