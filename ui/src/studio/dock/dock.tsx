@@ -27,7 +27,7 @@ export function Dock({ bench }: { bench: Bench }) {
         {open === "optimise" && <Progress bench={bench} kinds={["optimum"]} />}
         {open === "synthesis" && <Progress bench={bench} kinds={["curve", "synthesis"]} />}
       </div>
-      {open && <div class="dock-panel" role="tabpanel" id="dock-panel" aria-labelledby={`dock-tab-${open}`}><Panel bench={bench} name={open} /></div>}
+      {open && <div class="dock-panel" role="tabpanel" id="dock-panel" aria-label={bench.say(`dock.${open}`)}><Panel bench={bench} name={open} /></div>}
     </section>
   );
 }

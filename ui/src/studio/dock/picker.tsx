@@ -37,7 +37,8 @@ export function Picker({ bench, session, words, anchor, chosen, choose, close }:
   const take = (quantity: Quantity) => {
     close();
     choose(quantity.id);
-    anchor.focus();
+    // The curve that is there now takes the focus of the one that was.
+    setTimeout(() => (document.querySelector<HTMLElement>(`[data-curve="${CSS.escape(quantity.id)}"] .pick`) ?? anchor).focus());
   };
   const parts = text.toLowerCase().split(/[\s,，]+/).filter(Boolean);
   const matches = parts.length ? all.filter((each) => {

@@ -155,6 +155,11 @@ function Transport({ bench, session }: { bench: Bench; session: Session }) {
     go(phase);
   };
   const key = (event: KeyboardEvent) => {
+    if (event.key === " ") {
+      event.preventDefault();
+      event.stopPropagation();
+      return page.play(!page.playing.value);
+    }
     const step = KEYS[event.key], count = data.positions.closed ? data.positions.count : data.positions.count - 1;
     const to = step ? (page.index(session) + step * (event.shiftKey ? 10 : 1)) / count : event.key === "Home" ? 0 : event.key === "End" ? 1 : null;
     if (to === null) return;
