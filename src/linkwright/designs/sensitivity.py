@@ -20,7 +20,7 @@ from linkwright.designs.objective import over_metrics
 from linkwright.designs.objective_terms import differentiable
 from linkwright.designs.slopes import FRICTION_SLOPE, Slopes, known_loads
 from linkwright.designs.traced_outputs import Traced
-from linkwright.designs.varied_dimensions import checked_addresses, refuse_misfits
+from linkwright.designs.varied_dimensions import checked_addresses, refuse_misfits, refuse_moved_limits
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.formula.summaries import BACKENDS, Backend
 from linkwright.kinematics.cycle import over_cycle
@@ -203,6 +203,7 @@ def sensitivity(
         )
     _refuse_input(dimensions)
     refuse_misfits(mechanism, dimensions)
+    refuse_moved_limits(mechanism, positions, dimensions)
     asked = [split(each) for each in one_or_more(of)]
     if not asked:
         raise RequestError(NO_OUTPUTS)

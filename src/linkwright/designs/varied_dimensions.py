@@ -230,7 +230,7 @@ def refuse_moved_positions(mechanism: Mechanism, positions: Positions, columns: 
                 continue
             if not _same(mechanism, positions, moved):
                 wheels = mechanism.cycle is None and changed.drivers == mechanism.drivers
-                if mechanism.cycle is not None and mechanism.cycle.rock is not None:
+                if _ends(changed) != _ends(mechanism):
                     raise RequestError(
                         _(
                             "{address} changes the limits between which the driver rocks, so that the positions of "
@@ -256,6 +256,21 @@ def refuse_moved_positions(mechanism: Mechanism, positions: Positions, columns: 
                         address=address,
                     )
                 )
+
+
+def refuse_moved_limits(mechanism: Mechanism, positions: Positions, addresses: Iterable[str]) -> None:
+    """Refuses dimensions that move the limits between which a driver rocks, as :func:`refuse_moved_positions`."""
+    if mechanism.cycle is not None and mechanism.cycle.rock is not None:
+        known = {address: mechanism.dimension(address) for address in addresses}
+        refuse_moved_positions(
+            mechanism, positions, {address: np.array([1.001 * value or 1e-3]) for address, value in known.items()}
+        )
+
+
+def _ends(mechanism: Mechanism) -> list[tuple[float, float] | None]:
+    """Between what drivers rock."""
+    laws = (driver.law for driver in mechanism.drivers.values())
+    return [law.ends if isinstance(law, Rocking) else None for law in laws]
 
 
 def _rock_ends(mechanism: Mechanism) -> dict[str, str]:

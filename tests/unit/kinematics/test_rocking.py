@@ -283,6 +283,11 @@ def test_a_slide_without_a_limit_is_refused_with_what_to_write() -> None:
 def test_designs_of_other_limits_are_refused_designs_of_the_same_ends_are_not() -> None:
     with refused("study.moves_limits"):
         lw.study(four_bar(), {"coupler.length": [0.11, 0.12]}, metrics=["swing_angle"])
+    with refused("study.moves_limits"):
+        lw.sensitivity(four_bar(), of=["swing_angle"], by=["coupler.length"])
+    assert lw.sensitivity(four_bar(), of=["driver.effort rms"], by=["coupler.mass"])
+    with refused("study.moves_positions"):
+        lw.study(four_bar(), {"driver.speed": [5.0, 6.0]}, metrics=["swing_angle"])
     found = lw.study(four_bar("{rock: [-30 deg, 30 deg]}"), {"coupler.length": [0.11, 0.12]}, metrics=["swing_angle"])
     assert found.ok.all()
     assert found["swing_angle"][0] != found["swing_angle"][1]
