@@ -564,6 +564,7 @@ function withPlaces(actions: Action[], picture: Picture | undefined): Action[] {
 /** Points that lengths have placed stay where they were while a text is written that no machine comes of; others are
  *  where their lengths would have them. */
 function hold(picture: Picture, old?: Picture): void {
+  picture.loose ??= old?.loose?.filter((link) => link in picture.links);
   const used = new Set(Object.values(picture.links).flat()), before = Object.fromEntries((old?.placed ?? []).filter((point) => used.has(point)).map((point) => [point, old!.points[point]]));
   const held = Object.entries({ ...picture.sketched, ...before }).filter(([point]) => !(point in picture.points));
   Object.assign(picture.points, Object.fromEntries(held));

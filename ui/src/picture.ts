@@ -19,6 +19,8 @@ export interface Picture {
   sketched?: Record<string, [number, number]>;
   /** Links that no places of their points make as long as they are written. */
   unmet?: string[];
+  /** Links whose motion nothing determines yet: the machine has not got them. */
+  loose?: string[];
 }
 
 /** A link's mass, kg (null: no plain number) and as it is written; its centre: a point, coordinates in the link's axes (m)

@@ -1,9 +1,11 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import type { Picture } from "../src/picture";
+import type { Session } from "../src/session";
 import type { Vec } from "../src/shapes";
 import type { Gap } from "../src/studio/outline";
 import { boxOf, comeApart, placed } from "../src/studio/sheet/gap";
+import { Scene } from "../src/studio/sheet/scene";
 
 const GAP: Gap = {
   title: "", sentence: "", input: "110°", point: "B", ends: [[0.09, 0.03], [0.13, 0.02]], missing: 0.04, drawn: true, way: { centre: [0, 0], radius: 0.06, zero: 0 },
@@ -31,6 +33,17 @@ test("a block keeps the end on its guide, the rod gets its own", () => {
 test("a point in hand is where the hand has it, for both links", () => {
   const scene = comeApart(GAP, PICTURE, undefined, { B: [0.1, 0.1] });
   assert.deepEqual([scene.corners("coupler")[1], scene.corners("rocker")[1]], [[0.1, 0.1], [0.1, 0.1]]);
+});
+
+test("links that hang loose go along with their joints, those that lie apart stay", () => {
+  const place = { B: [0.2, 0.1], O1: [0, 0], O2: [0.22, 0], A: [0.05, 0.03] } as Record<string, Vec>;
+  const row = (name: string) => [place[name.slice(2, -2)][name.endsWith("x") ? 0 : 1]];
+  const session = { data: { points: Object.keys(place).map((key) => ({ key })) }, model: { main: { row, n: 1 }, solver: { whole: () => null } } } as unknown as Session;
+  const points = { ...PICTURE.points, Y: [0.2, 0.16], Z: [0.3, 0.16], P: [1, 1], Q: [2, 1] } as Picture["points"];
+  const links = { ...PICTURE.links, more: ["Y", "Z"], extra: ["B", "Y"], island: ["P", "Q"] };
+  const scene = new Scene({ ...PICTURE, points, links, loose: ["more", "extra", "island"] }, session, 0);
+  const places = ["Y", "Z", "P"].map((name) => scene.at(name)!.map((each) => Math.round(1000 * each)));
+  assert.deepEqual(places, [[300, 200], [400, 200], [1000, 1000]]);
 });
 
 test("the box has what the links reach, only where the gap is drawn there", () => {

@@ -56,22 +56,22 @@ def page(models: Sequence[tuple[Motion, str | None]], language: str = "en") -> s
     return document(page_data(models, language), title, language)
 
 
-def page_data(models: Sequence[tuple[Motion, str | None]], language: str) -> Plain:
-    """What a page is made of as plain data."""
+def page_data(models: Sequence[tuple[Motion, str | Document | None]], language: str) -> Plain:
+    """What a page is made of as plain data; a document in place of a text has the mechanism already."""
     words = {each: {key: text.translate(each) for key, text in TEXTS.items()} for each in LANGUAGES}
     return {"language": language, "words": words, "models": [_model(*each) for each in models]}
 
 
-def _model(motion: Motion, text: str | None) -> Plain:
-    text = dump(motion.mechanism) if text is None else text
+def _model(motion: Motion, source: str | Document | None) -> Plain:
+    text = dump(motion.mechanism) if source is None else source
+    document = text if isinstance(text, Document) else Document(text, "model", read_text)
     programs = PagePrograms(motion)
     values = programs.values()
     known = signals(programs)
     machine = _machine(motion)
-    document = Document(text, "model", read_text)
     changeable = dimensions(document, set(values))
     return {
-        **_texts(motion.mechanism, text),
+        **_texts(motion.mechanism, document.text),
         "module": base64.b64encode(wasm_module(programs.main)).decode(),
         "program": programs.main.names,
         "values": values,

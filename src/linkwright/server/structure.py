@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from linkwright.analysis.grashof import FourBar, four_bars
@@ -125,15 +125,21 @@ def _welded(links: Mapping[str, object], joints: list[MappingNode]) -> dict[str,
 
 
 # words ----------------------------------------------------------------------------------------------
-def structure_of(text: str, mechanism: Mechanism | None, language: str) -> Plain:
-    """The structure of a text: mobility, what it is in one line, the count, class and groups where they are known."""
+def structure_of(text: str, mechanism: Mechanism | None, language: str, loose: Sequence[str] = ()) -> Plain:
+    """The structure of a text: mobility, what it is in one line, the count, class and groups where they are known.
+
+    ``loose``: links that the text has not, as nothing determines their motion yet.
+    """
     root, _unused = compose(text.removeprefix("\ufeff"))
     own = counted(root) if root is not None else Counted()
     solved = None if mechanism is None else _structure(mechanism)
     mobility = own.mobility if solved is None else solved.mobility
+    said = headline(own, mechanism, mobility)
+    if loose:
+        said = _("{headline}; still loose: {links}", headline=said, links=tuple(loose))
     return {
         "mobility": mobility,
-        "headline": in_language(headline(own, mechanism, mobility), language),
+        "headline": in_language(said, language),
         "formula": formula(own, mobility),
         "class": in_language(_class(solved, language), language) if solved else "",
         "groups": [] if solved is None else [_group(each, language) for each in solved.groups],

@@ -21,6 +21,7 @@ from linkwright.server.edits import edited
 from linkwright.server.files import Files
 from linkwright.server.folder import listing
 from linkwright.server.handing_out import handed_out
+from linkwright.server.loose import moving_part
 from linkwright.server.moved import gap_data, moved
 from linkwright.server.outline import outline
 from linkwright.server.picture import completed
@@ -204,18 +205,19 @@ def solved(text: str, language: str, folder: str = "") -> Plain:
     ``folder``: where files lie that the text names.
     """
     mechanism, _ = read_text(text, "model")
-    findings, told = checked_text(text, "model", folder).findings, False
+    findings, told, part = checked_text(text, "model", folder).findings, False, moving_part(text)
+    mechanism = part.document.mechanism if part else mechanism
     found: Plain = {
         "model": None,
         "gap": None,
         "sentence": "",
         "optimize": {},
         "outline": outline(text),
-        "structure": structure_of(text, mechanism, language),
+        "structure": structure_of(part.text if part else text, mechanism, language, part.loose if part else ()),
     }
     try:
         draft = Draft(text)
-        found["picture"] = {**draft.picture(), "unmet": unmet(draft)}
+        found["picture"] = {**draft.picture(), "unmet": unmet(draft), "loose": part.loose if part else []}
         if mechanism is not None:
             from linkwright.page.content import page_data
             from linkwright.topology import structure
@@ -228,7 +230,7 @@ def solved(text: str, language: str, folder: str = "") -> Plain:
             if motion is None:
                 raise error or LinkwrightError("")
             found["picture"] = completed(found["picture"], motion)
-            found["model"] = page_data([(motion, text)], language)["models"][0]
+            found["model"] = page_data([(motion, part.document if part else text)], language)["models"][0]
     except LinkwrightError as error:
         found["sentence"] = "" if found["gap"] or unfinished(error.code) else error.translate(language)
     if found["model"] is None and "picture" in found:

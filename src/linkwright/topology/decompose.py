@@ -99,8 +99,21 @@ def _refuse_free(
     mechanism: Mechanism, choices: list[list[int]], row_of: list[int], owners: list[str], mobility: int
 ) -> None:
     free = [place for place, row in enumerate(row_of) if row < 0]
-    if not free:
-        return
+    if free:
+        raise explain_free(mechanism, _free_links(mechanism, choices, row_of, owners), len(free), mobility)
+
+
+def free_links(mechanism: Mechanism) -> list[str]:
+    """The links whose motion nothing determines; none of a mechanism that is determined more than once."""
+    graph = ConstraintGraph.of(mechanism)
+    choices = graph.choices()
+    _, owners = graph.places()
+    place_of, row_of = maximum_matching(choices, len(owners))
+    return [] if -1 in place_of else _free_links(mechanism, choices, row_of, owners)
+
+
+def _free_links(mechanism: Mechanism, choices: list[list[int]], row_of: list[int], owners: list[str]) -> list[str]:
+    free = [place for place, row in enumerate(row_of) if row < 0]
     reached, stack = set(free), list(free)
     rows_at: dict[int, list[int]] = {}
     for row, places in enumerate(choices):
@@ -114,7 +127,7 @@ def _refuse_free(
                 reached.add(place)
                 stack.append(place)
     bodies = _distinct(owners[place] for place in sorted(reached))
-    raise explain_free(mechanism, [body for body in bodies if body in mechanism.links], len(free), mobility)
+    return [body for body in bodies if body in mechanism.links]
 
 
 class Grouping:

@@ -249,6 +249,29 @@ def test_what_is_not_finished_is_no_error(actions: tuple[dict[str, Any], ...]) -
     assert answer["gap"] is None
 
 
+def test_what_is_driven_moves_while_other_links_hang_loose() -> None:
+    """A link with a free end, one that hangs on it, and one that lies apart: the four-bar turns."""
+    links = "  extra: {points: [B, Y], length: 90 mm}\n  more: {points: [Y, Z]}\n  island: {points: [P, Q]}\n"
+    places = ", Y: [190 mm, 60 mm], Z: [250 mm, 0 mm], P: [0 mm, -80 mm], Q: [80 mm, -80 mm]}\ndriver"
+    text = four_bar(180.0).replace("drawing:", links + "drawing:").replace("}\ndriver", places)
+    text = text.replace("length: 90 mm}\n  extra", "length: 140 mm}\n  extra")
+    answer = solved(text, "en")
+    assert answer["findings"] == []
+    assert answer["gap"] is None
+    assert sorted(answer["picture"]["loose"]) == ["extra", "island", "more"]
+    model = answer["model"]
+    assert {each["key"] for each in model["points"]} == {"O1", "O2", "A", "B"}
+    assert model["positions"]["closed"]
+    assert model["text"] == text
+    assert answer["structure"]["headline"].startswith("Four-bar, 1 degree of freedom; the crank can turn through")
+    lengths = {each["address"]: each["written"] for each in model["dimensions"]}
+    first, last, *_unused = lengths["coupler.length"]
+    assert text[first:last] == "180"
+    alone = solved(four_bar(180.0).replace("90 mm", "140 mm"), "en")
+    assert model["values"] == alone["model"]["values"]
+    assert alone["picture"]["loose"] == []
+
+
 def test_what_holds_a_link_twice_stays_an_error() -> None:
     answer = sheet(pivot("O1", 0.0), pivot("O2", 0.1), link("bar", "O1", "O2"))
     assert [each["code"] for each in answer["findings"]] == ["mobility.excess"]

@@ -104,9 +104,12 @@ type Box = [number, number, number, number];
 /** The box of the drawing with what is drawn of a gap, m. */
 export function boxOf({ reaches, way: circle, ends, drawn }: Gap, own: Box | null): Box | null {
   const boxes = [...(drawn ? reaches : []), ...(circle ? [circle] : [])].map(({ centre: [x, y], radius: r }): Box => [x - r, y - r, x + r, y + r]);
-  if (own) boxes.push(own);
-  for (const [x, y] of ends ?? []) boxes.push([x, y, x, y]);
-  const most = (k: number, pick: (...all: number[]) => number) => pick(...boxes.map((each) => each[k]));
+  return around(own, ...boxes, ...(ends ?? []).map(([x, y]): Box => [x, y, x, y]));
+}
+
+/** The box of boxes; null where there are none. */
+export function around(...all: (Box | null)[]): Box | null {
+  const boxes = all.filter((each) => each !== null), most = (k: number, pick: (...values: number[]) => number) => pick(...boxes.map((each) => each[k]));
   return boxes.length ? [most(0, Math.min), most(1, Math.min), most(2, Math.max), most(3, Math.max)] : null;
 }
 

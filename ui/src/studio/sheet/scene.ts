@@ -22,6 +22,9 @@ export interface ScenePair {
   at: Vec | null;
 }
 
+/** Key of a point that has been hung, while others are hung on it. */
+const HUNG = "hung";
+
 export class Scene {
   readonly points = new Map<string, ScenePoint>();
   readonly links: Record<string, string[]>;
@@ -47,12 +50,31 @@ export class Scene {
       const at = lifted?.[name] ?? (key && session ? (["x", "y"].map((axis) => value(`p:${key}.${axis}`)) as Vec) : points[name]);
       if (at && at.every(Number.isFinite)) this.points.set(name, { name, key, at, fixed: fixed.includes(name), links: own });
     }
+    this.hang(picture?.loose ?? [], points);
     this.drives = Object.entries(picture?.drives ?? {}).map(([drive, { about }]) => ({ name: drive, at: about ? this.at(about) : null }));
     this.pairs = Object.entries(typeof joints === "object" && !Array.isArray(joints) ? joints : {}).flatMap(([pair, entry]) => {
       if (typeof entry !== "object" || Array.isArray(entry)) return [];
       const { kind, at } = entry;
       return [{ name: pair, kind: typeof kind === "string" ? kind : "", at: typeof at === "string" ? this.at(at) : null }];
     });
+  }
+
+  /** Links that the machine has not yet go along with the joints that they hang on, as they are drawn. */
+  private hang(loose: string[], drawn: Record<string, Vec>): void {
+    for (let left = loose, count = -1; left.length !== count; ) {
+      count = left.length;
+      left = left.filter((link) => {
+        const points = this.links[link] ?? [], joint = points.find((name) => this.points.get(name)?.key && drawn[name]);
+        if (!joint) return true;
+        const [x, y] = this.at(joint)!, shift: Vec = [x - drawn[joint][0], y - drawn[joint][1]];
+        for (const name of points) {
+          const point = this.points.get(name);
+          if (point && !point.key && !point.fixed) Object.assign(point, { at: [point.at[0] + shift[0], point.at[1] + shift[1]], key: HUNG });
+        }
+        return false;
+      });
+    }
+    for (const point of this.points.values()) if (point.key === HUNG) point.key = "";
   }
 
   at(name: string): Vec | null {

@@ -11,7 +11,7 @@ import { MAKE } from "../tools";
 import type { Overlay, Sheet, Spot, Tool } from "../tools/tool";
 import { Camera, FULL } from "./camera";
 import { drawnPhase, isDrawn } from "./drawn";
-import { boxOf, comeApart } from "./gap";
+import { around, boxOf, comeApart } from "./gap";
 import { heading } from "./geometry";
 import { Grid, spacing } from "./grid";
 import { FINGER, NEAR, under } from "./hits";
@@ -284,8 +284,9 @@ export class Board implements Sheet {
       this.view.taken = ink;
       this.view.look();
     }
-    if (base && !base.added && !broken) sketch.clear();
-    else sketch.draw(this.scene, camera, bench.shows("names"), broken ? null : (base?.added ?? null), ink);
+    const known = base && (base.added ?? (this.picture?.loose?.length ? this.picture : null)), drawn = known && without(known, known.loose ?? []);
+    if (base && !drawn && !broken) sketch.clear();
+    else sketch.draw(this.scene, camera, bench.shows("names"), broken ? null : drawn, ink);
     this.seen = seen;
   }
 
@@ -331,7 +332,7 @@ export class Board implements Sheet {
   /** Puts all of the drawing into the sheet. */
   fit(): void {
     const { camera, base, broken } = this, gap = this.bench.gap.value;
-    const own = base && this.view && !broken ? this.view.box : this.scene.box, box = gap && (broken || !gap.drawn) ? boxOf(gap, own) : own;
+    const own = base && this.view && !broken ? around(this.view.box, this.scene.box) : this.scene.box, box = gap && (broken || !gap.drawn) ? boxOf(gap, own) : own;
     if (box) camera.fit(box, Math.min(96, 0.14 * Math.min(...camera.size)));
     else [camera.scale, camera.origin] = [FULL, [Math.round(0.4 * camera.size[0]), Math.round(0.6 * camera.size[1])]];
     this.touch();
@@ -464,4 +465,10 @@ function grown(old: Picture, now: Picture): boolean {
     Object.entries(old.links).every(([name, points]) => now.links[name]?.join() === points.join()) &&
     Object.keys(old.loads).every((name) => name in now.loads)
   );
+}
+
+/** A picture without some of its links, and the points that only these have. */
+function without(picture: Picture, loose: string[]): Picture {
+  const links = Object.fromEntries(Object.entries(picture.links).filter(([name]) => !loose.includes(name))), left = new Set([...Object.values(links).flat(), ...picture.fixed]);
+  return { ...picture, links, points: Object.fromEntries(Object.entries(picture.points).filter(([name]) => left.has(name))) };
 }

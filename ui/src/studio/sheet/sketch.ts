@@ -55,7 +55,7 @@ export class Sketch {
       const inner = !fixed && links.length === 1 && scene.links[links[0]].length > 2 && !scene.guided.includes(name);
       element("circle", { class: inner ? "lw-point" : "lw-pin", cx: x.toFixed(1), cy: y.toFixed(1), r: inner ? POINT : PIN }, layer.pins);
       inked([[x - 5, y - 5], [x + 5, y + 5], [x - 5, y + 5], [x + 5, y - 5]]);
-      labelled.push(name);
+      if (!known || !(name in known.points)) labelled.push(name);
     }
     // Names stay where they are while the points are the same.
     const shown = names ? labelled.join() : "";
