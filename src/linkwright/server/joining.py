@@ -88,6 +88,8 @@ def weld(draft: Draft, action: Mapping[str, Any]) -> None:
         raise LinkwrightError(
             _("there are no two links with a drawn direction at {point}", code="studio.no_weld", point=point)
         )
+    if (words := draft.section("assembly")) is not None and words.get(point) is not None:
+        draft.take_out("assembly", point)
     if "frame" in ways:
         remove_drives(draft, point)
     first, *others = ways
@@ -102,6 +104,16 @@ def split(draft: Draft, action: Mapping[str, Any]) -> None:
     entry, ends = draft.link(name), texts(draft.link(name).get("points"))
     if len(ends) != 2 or draft.picture()["links"][name] != ends:
         raise LinkwrightError(_("{link!r} is no bar of two points", code="studio.no_bar", link=name))
+    for key, joint in draft.section("joints") or ():
+        if isinstance(joint, MappingNode) and word(joint, "guide") == name:
+            raise LinkwrightError(
+                _(
+                    "{link!r} carries the guide {name!r}, and cannot be split",
+                    code="studio.split_guide",
+                    link=name,
+                    name=key,
+                )
+            )
     draft.complete(ends)
     first, last = ends
     point = request.name(action, "point") if "point" in action else new_point(draft)

@@ -183,6 +183,8 @@ def _take_off(draft: Draft, point: str, link: str) -> None:
                 link=link,
             )
         )
+    if word(draft.link(link), "mass_centre") == point:
+        draft.cut(draft.link(link), "mass_centre")
     gone = dict.fromkeys((section, name) for section, name, _unused in references(draft, link, point))
     for section, name in gone:
         draft.take_out(section, name)

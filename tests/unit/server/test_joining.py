@@ -53,6 +53,7 @@ def test_links_welded_at_a_joint_turn_as_one() -> None:
     moved = done(text, {"do": "set", "path": ["links", "arm", "length"], "value": "100 mm"})
     x, y = moved.picture["points"]["D"]
     assert math.atan2(y, x) == pytest.approx(math.atan2(50, -30), abs=2e-3)
+    assert "assembly" not in done(store.text("kite"), {"do": "weld", "point": "B", "on": True}).text
     stuck = done(NEW, *FOURBAR, {"do": "weld", "point": "O2", "on": True})
     assert lw.loads(stuck.text).joints["weld1"].joined == ("frame", "rocker")
     with refused("studio.no_weld", point="O9"):
@@ -72,6 +73,8 @@ def test_a_bar_is_split_with_its_mass_and_its_loads() -> None:
     assert sizes == pytest.approx([math.hypot(0.065, 0.04)] * 2, abs=6e-5)
     masses = [float(data["links"][each]["mass"].split()[0]) for each in ("coupler", "link1")]
     assert masses == pytest.approx([1.5, 1.5], rel=1e-3)
+    with refused("studio.split_guide", link="lever", name="slot"):
+        done(store.text("shaper_quick_return"), {"do": "split", "link": "lever", "at": [0, 0.1]})
     with refused("studio.no_bar", link="plate"):
         done(
             NEW,
@@ -183,6 +186,8 @@ def test_several_things_are_removed_in_one_step() -> None:
     plate = done(NEW, bar(["A", "B", "C"], name="plate", places={"A": [0, 0], "B": [0.1, 0], "C": [0.0, 0.1]}))
     less = done(plate.text, {"do": "remove", "items": [{"kind": "point", "name": "A"}]})
     assert "plate: {points: [B, C], length: 141.4 mm}" in less.text
+    shaper = done(store.text("shaper_course"), {"do": "remove", "items": [{"kind": "point", "name": "S6"}]}).text
+    assert "mass_centre: S6" not in shaper
     with refused("studio.no_load", name="x"):
         gone(("load", "x"))
 
