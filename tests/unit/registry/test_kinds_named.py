@@ -50,6 +50,7 @@ LEFT: Mapping[str, tuple[int, str]] = {
     "server/pairs.py": (2, "the same, of guides, slots and gears"),
     "server/masses.py": (1, "the same, of forces"),
     "server/joining.py": (1, "the same, of welds"),
+    "server/structure.py": (2, "counts pins, which a text may leave out, apart from other joints"),
     "designs/tolerance/pins.py": (1, "a law of its own, by a table, for pins that follow their reactions"),
     "file_check.py": (1, "judges closeness to singular positions by the metric's rule"),
     "machine/running.py": (1, "says how near its motion comes to a singular position"),
