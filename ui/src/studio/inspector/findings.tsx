@@ -67,7 +67,7 @@ function Finding({ bench, found }: { bench: Bench; found: Shown }) {
   const name = items.length === 1 ? items[0].name : "";
   return (
     <li class={bad ? "bad" : severity === "warning" ? "warn" : ""}>
-      <h3><Icon name={bad || severity === "warning" ? "alert" : "info"} size={17} />{found.title ? <Title text={found.title} point={items.find(({ kind }) => kind === "point")?.name ?? ""} /> : (name ? say("insp.finding_of", { kind: say(bad ? "insp.error" : severity === "warning" ? "insp.warning" : "insp.note"), name }) : say(bad ? "insp.error" : severity === "warning" ? "insp.warning" : "insp.note"))}</h3>
+      <h2><Icon name={bad || severity === "warning" ? "alert" : "info"} size={17} />{found.title ? <Title text={found.title} point={items.find(({ kind }) => kind === "point")?.name ?? ""} /> : (name ? say("insp.finding_of", { kind: say(bad ? "insp.error" : severity === "warning" ? "insp.warning" : "insp.note"), name }) : say(bad ? "insp.error" : severity === "warning" ? "insp.warning" : "insp.note"))}</h2>
       <p>{sentence}</p>
       {(items.length > 0 || line > 0) && (
         <p class="do">

@@ -1,5 +1,5 @@
 // Which metrics are shown, and new ones chosen by words: what, of what, as which number.
-import { useState } from "preact/hooks";
+import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { Figure } from "../../data";
 import type { Session } from "../../session";
 import type { Bench } from "../bench";
@@ -12,13 +12,15 @@ export function Picker({ bench, session, all, close }: { bench: Bench; session: 
   const [kind, setKind] = useState(kinds[0] ?? ""), [owner, setOwner] = useState(""), [as, setAs] = useState<Figure["kind"]>("largest");
   const of = signals.filter(({ id }) => kindOf(id) === kind), chosen = of.find(({ id }) => id === owner) ?? of[0], usual = chosen ? ways(chosen) : [];
   const way = usual.includes(as) ? as : usual[0], inWords = (id: string) => id.replace("|", ` ${say("insp.on_link")} `).replaceAll("+", ", ") || "–";
+  const box = useRef<HTMLElement>(null);
+  useLayoutEffect(() => box.current!.scrollIntoView({ block: "nearest" }), []);
   const add = () => {
     const id = `${way}:${chosen.id}`;
     choose({ added: added.includes(id) ? added : [...added, id], shown: { ...shown, [id]: true } });
   };
   return (
     <section
-      class="box metric-picker" aria-label={say("insp.number")}
+      ref={box} class="box metric-picker" aria-label={say("insp.number")}
       onKeyDown={(event) => {
         if (event.key !== "Escape") return;
         event.stopPropagation();

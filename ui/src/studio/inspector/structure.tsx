@@ -15,7 +15,7 @@ export function Structure({ bench }: { bench: Bench }) {
   const driven = drivers.map((each) => word(each.turn) || word(table(table(entries.joints)[word(each.slide)]).block)).filter(Boolean);
   return (
     <>
-      <p class="headline">{structure.headline}</p>
+      <h2 class="headline">{structure.headline}</h2>
       <div class="form">
         <Row label={say("insp.mobility")}><Formula text={structure.formula} /></Row>
         {structure.class && <Row label={say("insp.class")}><span class="quiet">{structure.class}</span></Row>}
