@@ -268,6 +268,7 @@ test("wheels meet where the pointer is: between the pivots outside each other, b
   assert.deepEqual(wheels(a, b, at(40, -5)), { teeth: [40, 20], inside: false });
   assert.deepEqual(wheels(a, b, at(-30, 0)), { teeth: [20, 60], inside: true });
   assert.deepEqual(wheels(a, b, at(90, 0)), { teeth: [60, 20], inside: true });
+  assert.deepEqual([wheels(a, b, at(20.4, 0)).teeth, wheels(a, b, at(20.4, 0), 1).teeth], [[20, 40], [20, 39]]);
   assert.deepEqual(radii({ teeth: [20, 40], inside: false }, 60), [20, 40]);
   assert.deepEqual(radii({ teeth: [20, 60], inside: true }, 40), [20, 60]);
 });

@@ -7,8 +7,9 @@ import { circle, line, taken } from "./marks";
 import { picking, type Hand, type Step } from "./picking";
 import type { Spot } from "./tool";
 
-// Teeth of the smaller wheel that the pointer sets, and the most of the larger; a ring has so many more at least.
-const SMALL = 20, LARGE = 400, MORE = 8;
+// Teeth of the smaller wheel that the pointer sets, and the most of the larger; a ring has so many more at least. The pointer
+// sets teeth by fives, so that ratios are round, unless Alt is held.
+const SMALL = 20, LARGE = 400, MORE = 10, FIVES = 5;
 
 export interface Wheels {
   /** Numbers of teeth, first and second. */
@@ -17,10 +18,10 @@ export interface Wheels {
 }
 
 /** The wheels that a place sets, seen from the first centre towards the second. */
-export function wheels(a: Vec, b: Vec, [x, y]: Vec): Wheels {
+export function wheels(a: Vec, b: Vec, [x, y]: Vec, step = FIVES): Wheels {
   const far = distance(a, b), t = ((x - a[0]) * (b[0] - a[0]) + (y - a[1]) * (b[1] - a[1])) / far ** 2, inside = t < 0 || t > 1;
   const [first, second] = [Math.abs(t), Math.abs(1 - t)], ratio = Math.max(first, second) / Math.max(Math.min(first, second), 1e-9);
-  const large = Math.min(LARGE, Math.max(inside ? SMALL + MORE : SMALL, Math.round(SMALL * ratio)));
+  const large = Math.min(LARGE, Math.max(inside ? SMALL + MORE : SMALL, step * Math.round((SMALL * ratio) / step)));
   return { teeth: first < second ? [SMALL, large] : [large, SMALL], inside };
 }
 
@@ -69,7 +70,7 @@ const second: Step = {
 const middles = ({ sheet: { scene }, picked: [a, b] }: Hand): [Vec, Vec] => centres(scene, a.name, b.name)!.map((name) => scene.at(name)!) as [Vec, Vec];
 
 function asked(hand: Hand, spot: Spot): Wheels {
-  const free = wheels(...middles(hand), spot.free), text = hand.values.written("teeth");
+  const free = wheels(...middles(hand), spot.free, spot.alt ? 1 : FIVES), text = hand.values.written("teeth");
   if (!text) return free;
   const [a, b] = text.split(":").map(Number);
   return { teeth: [a, Math.abs(b)], inside: b < 0 || free.inside };
