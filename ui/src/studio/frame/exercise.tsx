@@ -51,7 +51,7 @@ export function ExerciseDialog({ bench }: { bench: Bench }) {
   const field = (key: "count" | "seed" | "share" | "at", hint = "") => (
     <label>
       <span>{bench.say(`exercise.${key}`)}</span>
-      <input value={chosen[key]} inputMode={key === "count" || key === "seed" ? "numeric" : undefined} placeholder={hint} onInput={(event) => set({ [key]: event.currentTarget.value })} />
+      <input autofocus={key === "count"} value={chosen[key]} inputMode={key === "count" || key === "seed" ? "numeric" : undefined} placeholder={hint} onInput={(event) => set({ [key]: event.currentTarget.value })} />
     </label>
   );
   const choice = (key: "vary" | "ask", all: [string, string][]) => (

@@ -80,7 +80,9 @@ export function MenuHost() {
     const box = host.current!, items = entries(box);
     if (typeof box.showPopover === "function") box.showPopover();
     put(box, open);
-    (items.find((each) => each.getAttribute("aria-checked") === "true") ?? items[0])?.focus();
+    // Where it is one of several, the one that holds; else the first.
+    const of = open.choices[0]?.checked !== undefined ? items.findIndex((each) => each.getAttribute("aria-checked") === "true") : 0;
+    items[Math.max(0, of)]?.focus();
     const outside = (event: Event) => {
       const at = event.target as Node;
       if (!box.contains(at) && !open.opener?.contains(at)) opened.value = null;

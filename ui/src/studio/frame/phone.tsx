@@ -7,7 +7,7 @@ import { Stage } from "../sheet/stage";
 import { exportCommands } from "./commands";
 import { DialogFrame } from "./dialog";
 import { Icon } from "./icons";
-import { type Choices, MenuButton } from "./menu";
+import { type Choices, MenuButton, showMenu } from "./menu";
 import { GROUPS, STRIP, ToolButton } from "./rail";
 import { share } from "./sharing";
 import { Said } from "./status";
@@ -30,16 +30,18 @@ export function PhoneRoom({ bench }: { bench: Bench }) {
 }
 
 function PhoneBar({ bench }: { bench: Bench }) {
-  const name = bench.say("menu"), other = bench.page.language.value === "en" ? "zh" : "en";
+  const bar = useRef<HTMLElement>(null), name = bench.say("menu"), other = bench.page.language.value === "en" ? "zh" : "en";
   const choices = (): Choices => [
     ...fileChoices(bench), null,
-    ...exportCommands(bench).filter((each) => each !== null), null,
+    { label: `${bench.say("export")}…`, icon: "export", act: () => below(bench.say("export"), exportCommands(bench)) },
     { label: bench.say("palette"), icon: "search", act: () => (bench.dialog.value = { kind: "palette" }) },
     { label: other === "zh" ? "中文" : "English", icon: "info", act: () => bench.desk.speak(other) },
-    ...themes(bench),
+    { label: `${bench.say("theme")}…`, icon: "sun", act: () => below(bench.say("theme"), themes(bench)) },
+    { label: bench.say("keys.title"), icon: "keyboard", act: () => (bench.dialog.value = { kind: "keys" }) },
   ];
+  const below = (label: string, more: Choices) => showMenu(label, bar.current!.querySelector("button")!, more);
   return (
-    <header class="top">
+    <header class="top" ref={bar}>
       <MenuButton label={name} name={name} class="square" choices={choices}><Icon name="menu" /></MenuButton>
       <div class="phone-name"><Name bench={bench} /><State bench={bench} /></div>
       <Steps bench={bench} />
