@@ -20,6 +20,7 @@ from linkwright.server.entries import word
 from linkwright.server.links import fresh_block, put_link
 from linkwright.server.naming import by_function
 from linkwright.server.outline import outlined
+from linkwright.server.reassembled import reassemble
 from linkwright.server.values import accept, errors
 from linkwright.units import number
 from linkwright.words import _
@@ -50,6 +51,7 @@ def driver(draft: Draft, action: Mapping[str, Any]) -> None:
         if name not in _slides(draft):
             raise LinkwrightError(_NOT_DRIVEN.format(name=name))
         _drive(draft, {"slide": name, "speed": SLIDING})
+        reassemble(draft)
         return
     link = request.name(action, "link")
     draft.link(link)
@@ -67,6 +69,7 @@ def driver(draft: Draft, action: Mapping[str, Any]) -> None:
         _drive(draft, {"slide": slide, "speed": SLIDING})
     else:
         raise LinkwrightError(_NOT_DRIVEN.format(name=link))
+    reassemble(draft)
 
 
 def _drive(draft: Draft, entry: Plain) -> None:

@@ -129,12 +129,16 @@ def test_a_spring_is_free_as_it_is_drawn(chromium: Any, tmp_path: Path) -> None:
 
 def test_a_slider_is_driven_along_its_guide_and_let_go(chromium: Any, tmp_path: Path) -> None:
     with hand(chromium, tmp_path, press(tmp_path)) as drawn:
+        joint, ram = drawn.point("A"), drawn.point("B")
         drawn.take("drive")
         drawn.click(drawn.middle("A", "B"))
         assert drawn.refusal
         drawn.click(drawn.point("B"))
         drawn.settle()
         assert drawn.entries["driver"]["slide"] == "guide"
+        motion = lw.solve_motion(lw.loads(drawn.text), steps=720)
+        away = np.linalg.norm(motion.point("B").position - np.array(ram), axis=1)
+        assert motion.point("A").position[away.argmin()] == pytest.approx(np.array(joint), abs=1e-3)
         drawn.click(drawn.point("B"))
         drawn.settle()
         assert "driver" not in drawn.entries

@@ -60,13 +60,20 @@ class DriveTool implements Tool {
     if (!found) return this.refuse(spot);
     const same = Object.keys(drives).find((name) => sameDrive(drives[name], found));
     if (same !== undefined) {
-      void this.sheet.act([{ do: "remove", items: [{ kind: "driver", name: same }] }]);
+      void this.sheet.act([{ do: "remove", items: [{ kind: "driver", name: same }] }, ...this.cycle(false)]);
       this.sheet.bench.select();
-    } else void this.put({ do: "driver", ...found }, "link" in found);
+    } else void this.put([{ do: "driver", ...found }, ...this.cycle("slide" in found)], "link" in found);
   }
 
-  private async put(action: Action, turns: boolean): Promise<void> {
-    if (!(await this.sheet.act([action]))) return;
+  /** What moves along a guide goes to and fro between its limits; what turns does so only where it must. */
+  private cycle(slides: boolean): Action[] {
+    const { cycle } = this.sheet.bench.desk.solved.value.outline?.entries ?? {}, rocks = cycle === "rock";
+    if (slides) return cycle === undefined ? [{ do: "set", path: ["cycle"], value: "rock" }] : [];
+    return rocks ? [{ do: "unset", path: ["cycle"] }] : [];
+  }
+
+  private async put(actions: Action[], turns: boolean): Promise<void> {
+    if (!(await this.sheet.act(actions))) return;
     const names = Object.keys(this.stand.picture.drives ?? {}), name = names.at(-1) ?? "driver";
     this.last = { name, turns };
     this.values = new TypedValues(this.sheet.bench, { speed: turns ? "rate" : "velocity" });
