@@ -149,7 +149,7 @@ def _optimise(document: Document, job: Job) -> None:
 def _designs(found: Optimum, language: str) -> Plain:
     """The designs with their values (SI) and the rows of metrics next to those of the start, as texts."""
     choices = found.choices[:: -(-len(found) // SHOWN)]
-    tables = [comparison(found, each, language).texts() for each in choices]
+    tables = [comparison(found, each, language).texts(language) for each in choices]
     return {
         "head": tables[0][0],
         "candidates": [

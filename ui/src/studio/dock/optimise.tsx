@@ -64,7 +64,7 @@ function Form({ bench, session, asked }: Props & { asked: Record<string, unknown
             <Metric bench={bench} goals={goals} name={name} set={(to) => put("goals", wish.goals.map((row, j): Goal => (j === k ? [sense, to] : row)))} /></span>
           </div>
         ))}
-        <button type="button" class="text" onClick={() => put("goals", [...wish.goals, ["minimize", goals[0]?.name ?? ""]])}><Icon name="plus" size={14} />{say("dock.add_goal")}</button>
+        <button type="button" class="text" disabled={!goals.length} onClick={() => put("goals", [...wish.goals, another(goals, wish)])}><Icon name="plus" size={14} />{say("dock.add_goal")}</button>
       </fieldset>
       <fieldset>
         <legend>{say("dock.demands")}</legend>
@@ -75,11 +75,24 @@ function Form({ bench, session, asked }: Props & { asked: Record<string, unknown
             <Away bench={bench} name={name} act={() => put("keep", wish.keep.filter((_, j) => j !== k))} />
           </div>
         ))}
-        <button type="button" class="text" onClick={() => put("keep", [...wish.keep, [goals.find((each) => /transmission/.test(each.name))?.name ?? goals[0]?.name ?? "", "at least 40 deg"]])}><Icon name="plus" size={14} />{say("dock.add_demand")}</button>
+        <button type="button" class="text" disabled={!goals.length} onClick={() => put("keep", [...wish.keep, [goals.find((each) => /transmission/.test(each.name))?.name ?? goals[0]?.name ?? "", "at least 40 deg"]])}><Icon name="plus" size={14} />{say("dock.add_demand")}</button>
       </fieldset>
       <button class="solid sticking" disabled={!ready || running}>{say("dock.begin")}</button>
     </form>
   );
+}
+
+/** The goals that are asked first, with their senses. */
+const USUAL: [Sense, RegExp][] = [["minimize", /^peak_input_torque$/], ["maximize", /^transmission_angle$/], ["minimize", /^peak_reaction$/], ["minimize", /./]];
+
+/** A goal that is not asked yet. */
+function another(goals: Named[], { goals: asked }: Wish): Goal {
+  const free = goals.filter(({ name }) => !asked.some(([, each]) => each === name));
+  for (const [sense, sort] of USUAL) {
+    const found = free.find(({ name }) => sort.test(name));
+    if (found) return [sense, found.name];
+  }
+  return ["minimize", ""];
 }
 
 function Away({ bench, name, act }: { bench: Bench; name: string; act: () => void }) {
