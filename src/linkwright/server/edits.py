@@ -62,12 +62,21 @@ def edited(text: str, actions: Sequence[Mapping[str, Any]]) -> Edited:
         known, excused = len(draft.made), unmet(draft)
         notes.append(act(draft, action) or "")
         agree(draft, draft.made[known:], excused)
+        notes += [_unmet(each) for each in unmet(draft) if each not in excused]
     return Edited(
         draft.text,
         [each for each in notes if each],
         draft.made,
         draft.renamed,
         {**draft.picture(), "unmet": unmet(draft)},
+    )
+
+
+def _unmet(link: str) -> str:
+    return _(
+        "{link} cannot be that long where its ends are joined; its length stays, the drawing shows another one.",
+        code="studio.unmet",
+        link=link,
     )
 
 

@@ -13,6 +13,7 @@ from tests.unit.server.drawing import FOURBAR, NEW, PIVOTS, bar, done, metres
 
 import linkwright as lw
 from linkwright.server.work import solved
+from linkwright.words.message import code_of
 
 #: Jansen's proportions, mm: links between joints, in the order of drawing, from rough places (m).
 JANSEN = (
@@ -95,6 +96,7 @@ def test_lengths_that_no_places_meet_stay_and_are_told() -> None:
     assert far.picture["points"] == after.picture["points"]
     impossible = done(before.text, bar(["B", "O2"], "900 mm", name="rocker"))
     assert impossible.picture["unmet"] == ["rocker"]
+    assert [code_of(each) for each in impossible.notes] == ["studio.unmet"]
     assert "length: 900 mm" in impossible.text
     healed = done(impossible.text, bar(["B", "O2"], "100 mm", name="rocker"))
     assert healed.picture["unmet"] == []
