@@ -251,6 +251,13 @@ test("a weld is taken back, and an angle of two links turns the second one", asy
   const angle = await new Desk("dimension", right).steps([[50, 0], [150, 0], [90, 30], "angle=90", "Enter"]), move = angle.done[0][0] as unknown as { points: Record<string, Vec> };
   near(distance(move.points.B, at(100, 0)), 0.1, 1e-12);
   near(move.points.B[0], 0.1, 1e-12);
+  // The arm ends at a pivot: the crank turns, a quarter turn from the arm that goes straight up.
+  const closed: Picture = { ...right, points: { O1: at(0, 0), A: at(100, 0), O2: at(100, 50) }, fixed: ["O1", "O2"], links: { crank: ["O1", "A"], arm: ["A", "O2"] } };
+  const other = await new Desk("dimension", closed).steps([[50, 0], [100, 25], [90, 30], "angle=90", "Enter"]);
+  assert.deepEqual(rounded(other.done[0][0].points), { O2: at(100, 50) });
+  const open: Picture = { ...closed, fixed: ["O2"] };
+  const turn = await new Desk("dimension", open).steps([[50, 0], [100, 25], [90, 30], "angle=180", "Enter"]);
+  assert.deepEqual(rounded(turn.done[0][0].points), { O1: at(100, -100) });
 });
 
 test("a side of a plate is written where the text has it", () => {

@@ -128,7 +128,7 @@ class DimensionTool implements Tool {
   }
 
   private arc(over: Overlay, measure: Measure & { kind: "angle" }, spot: Spot, text: string): void {
-    const { scene, camera } = this.sheet, [a, b] = directions(scene, measure), at = camera.screen(scene.at(measure.at)!), r = Math.max(ARC, distance(at, spot.screen));
+    const { scene, camera } = this.sheet, [a, b] = directions(scene, measure), at = camera.screen(scene.at(measure.arms[1][0])!), r = Math.max(ARC, distance(at, spot.screen));
     const bent = turned(b - a), [from, to, middle] = [polar(at, r, -a), polar(at, r, -b), polar(at, r + 14, -a - bent / 2)];
     over.path(line(at, from) + line(at, to), "soft dashed");
     over.path(`M${from[0].toFixed(1)} ${from[1].toFixed(1)}A${r.toFixed(1)} ${r.toFixed(1)} 0 0 ${bent > 0 ? 0 : 1} ${to[0].toFixed(1)} ${to[1].toFixed(1)}`, "hand");

@@ -4,13 +4,16 @@ import type { Vec } from "../../shapes";
 import type { Item } from "../bench";
 import type { Entry } from "../outline";
 import type { Scene } from "../sheet/scene";
-import { distance, heading, polar, turned } from "./hand";
+import { distance, heading, pivotOf, polar, turned } from "./hand";
 
 /** What is measured: the length of a bar, the distance of two points, the angle of the second link from the first. */
 export type Measure =
   | { kind: "length"; link: string; points: [string, string] }
   | { kind: "distance"; points: [string, string] }
-  | { kind: "angle"; links: [string, string]; at: string; arms: [string, string] };
+  | { kind: "angle"; links: [string, string]; arms: [Arm, Arm] };
+
+/** A link seen as a direction: from the point about which it would turn to another one. */
+type Arm = [from: string, to: string];
 
 /** What the picked elements measure; null: there is one more to pick. */
 export function measured(scene: Scene, picked: Item[]): Measure | null {
@@ -25,18 +28,19 @@ function ends(scene: Scene, points: [string, string]): Measure {
   return link ? { kind: "length", link, points } : { kind: "distance", points };
 }
 
-/** The angle at the joint of two links, or at the first point of the second one. */
+/** The angle at the joint of two links; where they have none, as each turns about its pivot or its first point. */
 function between(scene: Scene, a: string, b: string): Measure {
-  const at = scene.links[a].find((point) => scene.links[b].includes(point)) ?? scene.links[b][0];
-  const arm = (link: string, from: string) => scene.links[link].find((point) => point !== from)!;
-  const from = scene.links[a].includes(at) ? at : scene.links[a][0];
-  return { kind: "angle", links: [a, b], at, arms: [arm(a, from), arm(b, at)] };
+  const common = scene.links[a].find((point) => scene.links[b].includes(point));
+  const arm = (link: string): Arm => {
+    const from = common ?? pivotOf(scene, link) ?? scene.links[link][0];
+    return [from, scene.links[link].find((point) => point !== from)!];
+  };
+  return { kind: "angle", links: [a, b], arms: [arm(a), arm(b)] };
 }
 
 /** The directions of the two arms of an angle. */
-export function directions(scene: Scene, { links: [a], at, arms }: Measure & { kind: "angle" }): [number, number] {
-  const from = scene.links[a].includes(at) ? at : scene.links[a].find((point) => point !== arms[0])!;
-  return [heading(scene.at(from)!, scene.at(arms[0])!), heading(scene.at(at)!, scene.at(arms[1])!)];
+export function directions(scene: Scene, { arms }: Measure & { kind: "angle" }): [number, number] {
+  return arms.map(([from, to]) => heading(scene.at(from)!, scene.at(to)!)) as [number, number];
 }
 
 export function sizeOf(scene: Scene, measure: Measure): number {
@@ -50,17 +54,24 @@ export function driven(scene: Scene, measure: Measure, value: number, text: stri
   if (measure.kind === "length") return [{ do: "set", path: ["links", measure.link, "length"], value: text }];
   const whole = measure.kind === "distance" && written(scene, measure.points, text, links);
   if (whole) return [whole];
-  if (measure.kind === "angle") {
-    const [a, b] = directions(scene, measure), bent = turned(b - a), turn = (bent < 0 ? -value : value) - bent, centre = scene.at(measure.at)!;
-    const others = scene.links[measure.links[1]].filter((point) => point !== measure.at && scene.at(point));
-    const places = others.map((point) => [point, polar(centre, distance(centre, scene.at(point)!), heading(centre, scene.at(point)!) + turn)]);
-    return [{ do: "move", points: Object.fromEntries(places) as Record<string, Vec>, locked }];
-  }
+  if (measure.kind === "angle") return [{ do: "move", points: turnedTo(scene, measure, value), locked }];
   // The point that is clicked last moves, but a pivot only where both are pivots.
   const fixed = (point: string) => scene.points.get(point)!.fixed, [a, b] = measure.points;
   const [from, to] = fixed(b) && !fixed(a) ? [b, a] : [a, b], at = polar(scene.at(from)!, value, heading(scene.at(from)!, scene.at(to)!));
   if (fixed(to)) return [{ do: "set", path: ["frame", "points", to], value: at.map((each) => `${Number((1e3 * each).toFixed(4))} mm`) }];
   return [{ do: "move", points: { [to]: at }, locked }];
+}
+
+/** Where the points of a link are when it has been turned to an angle: of the second link, unless only the first is free to turn. */
+function turnedTo(scene: Scene, measure: Measure & { kind: "angle" }, value: number): Record<string, Vec> {
+  const [a, b] = directions(scene, measure), bent = turned(b - a), turn = (bent < 0 ? -value : value) - bent;
+  const others = measure.links.map((link, k) => scene.links[link].filter((point) => point !== measure.arms[k][0] && scene.at(point)));
+  const [first, second] = others.map((points) => points.every((point) => !scene.points.get(point)!.fixed)), k = first && !second ? 0 : 1;
+  const centre = scene.at(measure.arms[k][0])!, by = k ? turn : -turn;
+  return Object.fromEntries(others[k].map((point) => {
+    const place = scene.at(point)!;
+    return [point, polar(centre, distance(centre, place), heading(centre, place) + by)];
+  }));
 }
 
 /** Writes the side of a plate that the text has as a number; null where it has none. */
