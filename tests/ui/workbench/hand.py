@@ -209,4 +209,4 @@ def hand(
         found.settle()
         yield found
         context.close()
-        assert found.errors == []
+        assert found.errors == [], found.errors

@@ -86,10 +86,11 @@ function lead(over: Overlay, board: Board, gap: Gap, { style, offsetWidth, offse
   const bars = Object.keys(scene.links).map((link) => scene.corners(link).map((each) => camera.screen(each)));
   const later = gap.remedies.flatMap(({ places }) => Object.values(places).map((each) => camera.screen(each)));
   const drawing = [...bars.flatMap(along), ...later, ...(spot ? [spot] : [])];
-  const [x, y] = placed([offsetWidth, offsetHeight], spot, drawing, camera.size);
+  // On a phone the signs of the sheet are at its right edge.
+  const [x, y] = board.bench.layout.value === "phone" ? [8, 8] : placed([offsetWidth, offsetHeight], spot, drawing, camera.size);
   style.left = `${Math.round(x)}px`;
   style.top = `${Math.round(y)}px`;
-  if (!spot || !gap.ends || !gap.drawn) return;
+  if (!spot || !gap.ends || !gap.drawn || board.bench.layout.value === "phone") return;
   const right = x > spot[0], edge = right ? x : x + offsetWidth, side = Math.min(y + offsetHeight - 24, y + 88);
   if ((right ? edge - spot[0] : spot[0] - edge) > 16) over.path(`M${tenth(spot[0])} ${tenth(spot[1] + (side < spot[1] ? -48 : 48))}V${tenth(side)}H${tenth(edge)}`, "bad leader");
 }

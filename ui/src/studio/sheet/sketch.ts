@@ -22,7 +22,7 @@ export class Sketch {
 
   clear(): void {
     for (const each of Object.values(this.layers)) if (each.firstChild) each.replaceChildren();
-    this.labelled = "";
+    [this.labelled, this.names] = ["", null];
   }
 
   /** All of a picture, or what another one has not; `taken`: strokes which names keep clear of, too. */
