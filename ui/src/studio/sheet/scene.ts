@@ -5,6 +5,7 @@ import type { Picture } from "../../picture";
 import type { Session } from "../../session";
 import type { Vec } from "../../shapes";
 import type { Entry } from "../outline";
+import { placeOf } from "./sketch_pairs";
 
 export interface ScenePoint {
   name: string;
@@ -20,6 +21,8 @@ export interface ScenePair {
   name: string;
   kind: string;
   at: Vec | null;
+  /** The point that it is at, "": none. */
+  point: string;
 }
 
 /** Key of a point that has been hung, while others are hung on it. */
@@ -55,7 +58,7 @@ export class Scene {
     this.pairs = Object.entries(typeof joints === "object" && !Array.isArray(joints) ? joints : {}).flatMap(([pair, entry]) => {
       if (typeof entry !== "object" || Array.isArray(entry)) return [];
       const { kind, at } = entry;
-      return [{ name: pair, kind: typeof kind === "string" ? kind : "", at: typeof at === "string" ? this.at(at) : null }];
+      return [{ name: pair, kind: typeof kind === "string" ? kind : "", at: placeOf(this, entry), point: typeof at === "string" ? at : "" }];
     });
   }
 

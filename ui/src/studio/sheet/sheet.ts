@@ -286,7 +286,7 @@ export class Board implements Sheet {
     }
     const known = base && (base.added ?? (this.picture?.loose?.length ? this.picture : null)), drawn = known && without(known, known.loose ?? []);
     if (base && !drawn && !broken) sketch.clear();
-    else sketch.draw(this.scene, camera, bench.shows("names"), broken ? null : drawn, ink);
+    else sketch.draw(this.stand, bench.desk.solved.value.outline?.entries.joints, camera, bench.shows("names"), broken ? null : drawn, ink);
     this.seen = seen;
   }
 

@@ -4,9 +4,12 @@ import type { Picture } from "../../picture";
 import type { Vec } from "../../shapes";
 import { element, hull, line } from "../../strokes";
 import type { Camera } from "./camera";
+import type { Stand } from "./loads";
 import type { Scene } from "./scene";
+import type { Entry } from "../outline";
+import { drawPairs } from "./sketch_pairs";
 
-const LAYERS = ["bodies", "blocks", "supports", "pins", "names"];
+const LAYERS = ["wheels", "bodies", "blocks", "supports", "pins", "names"];
 const PIN = 5, POINT = 2.8;
 
 export class Sketch {
@@ -26,8 +29,8 @@ export class Sketch {
   }
 
   /** All of a picture, or what another one has not; `taken`: strokes which names keep clear of, too. */
-  draw(scene: Scene, camera: Camera, names: boolean, known: Picture | null, taken: number[]): void {
-    const layer = this.layers;
+  draw(stand: Stand, joints: Entry | undefined, camera: Camera, names: boolean, known: Picture | null, taken: number[]): void {
+    const { scene } = stand, layer = this.layers;
     for (const name of LAYERS) if (name !== "names") layer[name].replaceChildren();
     const ink = [...taken], [w, h] = camera.size, labelled: string[] = [];
     const inked = (corners: Vec[]) => corners.forEach((corner, k) => k && ink.push(...corners[k - 1], ...corner));
@@ -38,6 +41,7 @@ export class Sketch {
       inked(wide ? [...around, around[0]] : around);
       element("path", { class: `${wide ? "lw-plate" : "lw-bar"}${name === scene.driver ? " driven" : ""}`, d: line(around, wide) }, layer.bodies);
     }
+    if (!known) drawPairs(layer, stand, joints, camera);
     for (const { name, at, fixed, links } of scene.points.values()) {
       const old = known && name in known.points && known.fixed.includes(name) === fixed && known.guided.includes(name) === scene.guided.includes(name);
       if ((old && linksOf(known, name) === links.length) || covered(scene, name)) continue;
@@ -49,7 +53,8 @@ export class Sketch {
         inked([[x - 16, y + 18], [x + 16, y + 18], [x, y + 6], [x - 16, y + 25], [x + 16, y + 25]]);
       }
       if (scene.guided.includes(name)) {
-        put("slider", layer.blocks);
+        // Its joint draws a block, unless it is not known yet.
+        if (known || !scene.pairs.some((pair) => pair.point === name)) put("slider", layer.blocks);
         inked([[x - 15, y - 9], [x + 15, y + 9], [x - 15, y + 9], [x + 15, y - 9]]);
       }
       const inner = !fixed && links.length === 1 && scene.links[links[0]].length > 2 && !scene.guided.includes(name);
