@@ -28,7 +28,6 @@ INSPECTOR: dict[str, Message] = {
     "insp.by_zoom": _("by the zoom"),
     "insp.gravity": pgettext("inspector", "Gravity"),
     "insp.off": pgettext("inspector", "off"),
-    "insp.gravity_about": _("Acts on every mass"),
     "insp.loads": pgettext("inspector", "Loads"),
     "insp.machine": pgettext("inspector", "Machine"),
     "insp.title": pgettext("inspector", "Title"),

@@ -12,7 +12,7 @@ export function DimensionPanel({ bench, item, entries }: PanelProps) {
   const known = bench.session.value?.data.dimensions.find(({ address }) => address === name);
   return (
     <>
-      <Head bench={bench} icon="dimension" title={name} item={item} fixedName locks={[name]}>{say("insp.dimension_about")}</Head>
+      <Head bench={bench} icon="dimension" title={name} item={item} fixedName locks={[name]} remove={null}>{say("insp.dimension_about")}</Head>
       <div class="form">
         {path && <Quantity label={say("insp.value")} value={value} unit={known?.unit ?? bench.settings.value.unit} set={(text) => set(bench, path, text)} />}
         <Quantity label={say("insp.tolerance")} value={word(at(entries, "optimize", "tolerance", name))} unit={known?.unit ?? "mm"} preset="–" optional set={(text) => put(bench, ["optimize", "tolerance", name], text)} />

@@ -17,7 +17,7 @@ export function DriverPanel({ bench, item, entries }: PanelProps) {
   const block = slides ? word(at(entries, "joints", word(driver.slide), "block")) : word(driver.turn), locks = ["speed", "start"].filter((key) => word(driver[key])).map((key) => `${name}.${key}`);
   return (
     <>
-      <Head bench={bench} icon="drive" title={say("insp.driver")} item={item} tone="input" fixedName locks={locks}>
+      <Head bench={bench} icon="drive" title={say("insp.driver")} item={{ kind: "driver", name }} tone="input" fixedName locks={locks}>
         {slides ? say("insp.driver_slides", { link: block }) : say("insp.driver_turns", { link: block, point: word(driver.about) })}
       </Head>
       <div class="form">

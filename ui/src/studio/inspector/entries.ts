@@ -64,7 +64,7 @@ export function pathOf(entries: Table, item: Item): Path | null {
   switch (item.kind) {
     case "link": return ["links", item.name];
     case "pair": return ["joints", item.name];
-    case "load": return item.name === "gravity" && !("gravity" in table(entries.loads)) ? ["gravity"] : ["loads", item.name];
+    case "load": return ["loads", item.name];
     case "driver": return driverOf(entries, item.name)?.path ?? null;
     case "point": return isFixed(entries, item.name) ? ["frame", "points", item.name] : item.name in table(entries.joints) ? ["joints", item.name] : ["drawing", item.name];
     case "dimension": return addressPath(entries, item.name);

@@ -2,22 +2,8 @@
 import type { Bench } from "../bench";
 import { set } from "./change";
 import { type Table } from "./entries";
-import { Quantity, Section } from "./fields";
-import { Head, Written } from "./head";
-import { allLoads, gravityOf, LoadList } from "./loads_list";
-import type { PanelProps } from "./selected";
-
-export function GravityPanel({ bench, item, entries }: PanelProps) {
-  const { say } = bench;
-  return (
-    <>
-      <Head bench={bench} icon="gravity" title={say("insp.gravity")} item={item} tone="load" fixedName>{say("insp.gravity_about")}</Head>
-      <div class="form"><GravityFields bench={bench} entries={entries} /></div>
-      <Section bench={bench} id="insp.all_loads" title={say("insp.all_loads")} count={allLoads(entries).length + 1}>{() => <LoadList bench={bench} entries={entries} names={allLoads(entries)} gravity />}</Section>
-      <Written bench={bench} path={["gravity"]} />
-    </>
-  );
-}
+import { Quantity } from "./fields";
+import { gravityOf } from "./loads_list";
 
 export function GravityFields({ bench, entries }: { bench: Bench; entries: Table }) {
   const { say } = bench, field = gravityOf(entries);

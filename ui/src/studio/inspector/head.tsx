@@ -21,8 +21,8 @@ interface HeadProps {
   locks?: string[];
   tone?: "load" | "input";
   fixedName?: boolean;
-  /** Takes away what is not in the text. */
-  remove?: () => void;
+  /** Takes away what the text does not have as an element; null: it stays. */
+  remove?: (() => void) | null;
 }
 
 export function Head({ bench, icon, title, children, item, locks = NONE, tone, fixedName = false, remove: away }: HeadProps) {
@@ -46,7 +46,7 @@ export function Head({ bench, icon, title, children, item, locks = NONE, tone, f
               <Icon name={locked ? "lock" : "unlock"} size={17} />
             </button>
           )}
-          <button type="button" class="square" aria-label={bench.say("insp.delete", { name: item.name })} title={bench.say("insp.delete", { name: item.name })} onClick={() => void remove()}><Icon name="trash" size={17} /></button>
+          {away !== null && <button type="button" class="square" aria-label={bench.say("insp.delete", { name: item.name })} title={bench.say("insp.delete", { name: item.name })} onClick={() => void remove()}><Icon name="trash" size={17} /></button>}
         </span>
       )}
     </div>

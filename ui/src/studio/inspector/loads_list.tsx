@@ -55,8 +55,8 @@ export function LoadList({ bench, entries, names, gravity = false }: { bench: Be
   return (
     <ul class="list">
       {gravity && (
-        <li class={bench.has({ kind: "load", name: "gravity" }) ? "chosen with-switch" : "with-switch"}>
-          <button type="button" onClick={() => on && bench.select({ kind: "load", name: "gravity" })}>
+        <li class="with-switch">
+          <button type="button" onClick={() => bench.select()}>
             <b>{say("insp.gravity")}</b><small>{on ? gravityText(field) : say("insp.off")}</small>
           </button>
           <button type="button" class="switch" role="switch" aria-checked={on} aria-label={say("insp.gravity")} onClick={() => void tell(bench, on ? unset(bench, ["gravity"]) : set(bench, ["gravity"], GRAVITY))}><i /></button>

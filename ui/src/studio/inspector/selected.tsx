@@ -6,7 +6,6 @@ import { CurvePanel, PhotoPanel } from "./backgrounds";
 import { DimensionPanel } from "./dimension";
 import { DriverPanel } from "./driver";
 import { at, type Table, word } from "./entries";
-import { GravityPanel } from "./gravity";
 import { LinkPanel } from "./link";
 import { LoadPanel } from "./load";
 import { PairPanel } from "./pair";
@@ -31,7 +30,7 @@ export function Selected({ bench }: { bench: Bench }) {
   const { entries } = outline, known = selection.filter((item) => exists(bench, entries, item));
   if (!known.length) return <SheetPanel bench={bench} />;
   if (known.length > 1) return <Several bench={bench} items={known} outline={outline} entries={entries} />;
-  const [item] = known, Panel = item.kind === "load" && item.name === "gravity" && at(entries, "loads", "gravity") === undefined ? GravityPanel : PANELS[item.kind];
+  const [item] = known, Panel = PANELS[item.kind];
   return <Panel key={`${item.kind} ${item.name}`} bench={bench} item={item} outline={outline} entries={entries} />;
 }
 
@@ -41,7 +40,7 @@ function exists(bench: Bench, entries: Table, { kind, name }: Item): boolean {
     case "point": return name in (bench.desk.solved.value.picture?.points ?? {}) || word(at(entries, "joints", name, "kind")) !== "" || at(entries, "frame", "points", name) !== undefined;
     case "link": return at(entries, "links", name) !== undefined;
     case "pair": return at(entries, "joints", name) !== undefined;
-    case "load": return at(entries, "loads", name) !== undefined || (name === "gravity" && entries.gravity !== undefined);
+    case "load": return at(entries, "loads", name) !== undefined;
     case "driver": return entries.driver !== undefined || entries.drivers !== undefined;
     default: return true;
   }
