@@ -11,7 +11,7 @@ import { beside } from "../src/studio/sheet/hand";
 import { scale } from "../src/studio/sheet/scales";
 import { Scene } from "../src/studio/sheet/scene";
 import { aimed, direction } from "../src/studio/tools/aim";
-import { through } from "../src/studio/tools/target";
+import { closing, through } from "../src/studio/tools/target";
 import { written } from "../src/studio/tools/written";
 import { near } from "./near";
 
@@ -136,7 +136,7 @@ test("a scale's arrow is as long as its value is drawn", () => {
 test("numbers are written as a person would", () => {
   assert.deepEqual(
     [written(250, "force"), written(12500, "force"), written(-Math.PI, "angle"), written(0.0803, "length"), written(-1e-12, "length"), written(2000, "stiffness"), written(2 * Math.PI, "rate")],
-    ["250 N", "12.5 kN", "-180 deg", "80.3 mm", "0 mm", "2 N/mm", "60 rpm"],
+    ["250 N", "12.5 kN", "180 deg", "80.3 mm", "0 mm", "2 N/mm", "60 rpm"],
   );
 });
 
@@ -148,4 +148,11 @@ test("the values in hand stand beside the pointer, off the element and inside of
     assert.ok(x >= 0 && y >= 0 && x + size[0] <= sheet[0] && y + size[1] <= sheet[1] && !covers(at));
   }
   assert.ok(beside([700, 200], size, sheet, [400, 300])[1] < 200, "away from where the element comes from");
+});
+
+test("a stroke closes where it comes by its start, and not where it only begins", () => {
+  const round = (turns: number) => Array.from({ length: 100 }, (_, k): Vec => [100 * Math.cos((k / 99) * turns * 2 * Math.PI), 100 * Math.sin((k / 99) * turns * 2 * Math.PI)]);
+  near(closing(round(1.1), 14)! / 99, 1 / 1.1, 0.01);
+  assert.equal(closing(round(0.7), 14), null);
+  assert.equal(closing(round(1), 14), 99);
 });

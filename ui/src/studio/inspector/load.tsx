@@ -2,6 +2,8 @@
 import type { Bench } from "../bench";
 import type { IconName } from "../frame/icons";
 import type { Entry } from "../outline";
+import { turned } from "../tools/hand";
+import { written } from "../tools/written";
 import { Acting } from "./acting";
 import { put, set, tell } from "./change";
 import { at, guideOf, type Path, pointsOf, type Table, table, word, words } from "./entries";
@@ -78,15 +80,17 @@ type Held = "space" | "link" | "guide" | "opposes";
 function Direction({ bench, name, load, entries }: { bench: Bench; name: string; load: Table; entries: Table }) {
   const { say } = bench, path: Path = ["loads", name], guide = guideOf(entries, word(load.on))?.[1], along = words(load.along).length ? "along" : "normal_to";
   const ray = words(load[along]), own = word(load.direction), lead = word(guide?.direction);
-  const held: Held = load.opposes !== undefined ? "opposes" : load.in_link !== undefined ? "link" : (ray.length && guide) || (lead && parallel(own, lead)) ? "guide" : "space";
+  // Where it points now, and the axes that it may turn with, rad.
+  const stand = bench.sheet.value?.stand, drawn = stand?.loads[name], way = (drawn && stand.direction(drawn)) ?? 0;
+  const axis = stand?.axis(word(load.on)) ?? 0, slides = stand?.guideOf(word(load.on))?.angle ?? axis, along_guide = Math.abs(Math.sin(way - slides)) < 1e-6;
+  const held: Held = load.opposes !== undefined ? "opposes" : load.in_link !== undefined ? (guide && along_guide ? "guide" : "link") : (ray.length && guide) || (lead && parallel(own, lead)) ? "guide" : "space";
   const hold = (to: Held) => void tell(bench, set(bench, path, withDirection(load, direction(to))));
   const direction = (to: Held): Record<string, Entry> => {
-    const angle = own || word(load.in_link) || "0 deg";
-    if (to === "link") return { in_link: angle };
+    if (to === "link") return { in_link: written(turned(way - axis), "angle") };
     if (to === "opposes") return { opposes: "velocity" };
-    if (to === "guide" && lead) return { direction: against(angle, lead) ? turned(lead) : lead };
-    if (to === "guide") return { along: words(guide?.direction) };
-    return { direction: angle };
+    // A block has the axes of its guide: what is held in it stays along the guide wherever that leads.
+    if (to === "guide") return { in_link: written(turned(slides - axis + (Math.cos(way - slides) < 0 ? Math.PI : 0)), "angle") };
+    return { direction: written(turned(way), "angle") };
   };
   const options: [Held, string][] = [["space", say("insp.held_space")], ["link", say("insp.held_link")], ...(guide ? [["guide", say("insp.held_guide")] as [Held, string]] : [])];
   return (
@@ -108,8 +112,6 @@ function withDirection(load: Table, direction: Record<string, Entry>): Table {
 
 const degrees = (text: string) => Number.parseFloat(text);
 const parallel = (a: string, b: string) => a !== "" && Math.abs(Math.sin(((degrees(a) - degrees(b)) * Math.PI) / 180)) < 1e-9;
-const against = (a: string, b: string) => a !== "" && Math.cos(((degrees(a) - degrees(b)) * Math.PI) / 180) < 0;
-const turned = (angle: string) => `${180 - ((((-degrees(angle) % 360) + 360) % 360))} deg`;
 
 /** A direction by two points of its link: along their line or square to it. */
 function Ray({ bench, path, load, along, entries }: { bench: Bench; path: Path; load: Table; along: string; entries: Table }) {

@@ -46,8 +46,16 @@ class TargetTool implements Tool {
     const { pressed, drawing } = this;
     this.pressed = null;
     this.drawing = false;
-    if (drawing) this.finish(this.closes(spot));
+    if (drawing) this.stroke(spot);
     else if (pressed) this.click(spot);
+  }
+
+  /** A stroke that has come by its start again is closed there, however far it goes on. */
+  private stroke(spot: Spot): void {
+    const { camera } = this.sheet, again = closing(this.places.map((each) => camera.screen(each)), CLOSING);
+    if (again === null) return this.finish(this.closes(spot));
+    this.places = this.places.slice(0, again);
+    this.finish(true);
   }
 
   private closes({ screen }: Spot): boolean {
@@ -112,6 +120,16 @@ class TargetTool implements Tool {
     this.pressed = null;
     this.drawing = false;
   }
+}
+
+/** Where a stroke comes back to its start, as near as it may be, in its second half; null: nowhere. */
+export function closing(places: Vec[], near: number): number | null {
+  let best = near, found: number | null = null;
+  for (let k = Math.ceil(places.length / 2); k < places.length; k++) {
+    const far = distance(places[0], places[k]);
+    if (far <= best) [best, found] = [far, k];
+  }
+  return found;
 }
 
 /** A smooth curve through clicked places (Catmull and Rom). */

@@ -11,5 +11,7 @@ export function written(value: number, quantity: Field["quantity"]): string {
   const [symbol, factor, large] = UNITS[quantity] ?? ["", 1], big = large && Math.abs(value) >= large[2];
   const number = value / (big ? large[1] : factor), places = quantity === "angle" || quantity === "length" ? 1 : null;
   const text = String(Number(places === null ? number.toPrecision(4) : number.toFixed(places)));
-  return `${text === "-0" ? "0" : text} ${big ? large[0] : symbol}`.trim();
+  // Half a turn is one, whichever way it is made.
+  const usual = ({ "-0": "0", ...(quantity === "angle" && { "-180": "180" }) } as Record<string, string>)[text];
+  return `${usual ?? text} ${big ? large[0] : symbol}`.trim();
 }
