@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+import math
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -26,6 +27,8 @@ HOLD = 0.05
 STEPS_OFF, SHARE_OFF = 1.5, 1e-3
 #: Sizes that are rounded agree with coordinates that are within so many steps.
 AGREED = 0.8
+#: Few points move alone where they need not move so many times farther than all together.
+FARTHER = 1.5
 
 
 @dataclass(frozen=True)
@@ -208,16 +211,37 @@ def agree(draft: Draft, new: Collection[str] = (), excused: Collection[str] = ()
     wanted, shown = conditions(draft), draft.shown()
     at = {name: complex(*place) for name, place in shown["points"].items()}
     movable = [name for name in at if name not in shown["fixed"]]
-    fresh = [name for name in movable if name in new]
     left = [each for each in wanted if each.link not in excused]
     for held, starts in ((wanted, 0), (left, STARTS)) if excused else ((wanted, STARTS),):
         if _agrees(draft, held, at):
             return
-        for free in (fresh, movable):
-            found = nearest(held, at, free, starts=starts)
-            if found and _agrees(draft, held, {**at, **found}):
-                move(draft, at, found)
-                return
+        found = _places(draft, held, at, [[name for name in movable if name in new], movable], starts)
+        if found is not None:
+            move(draft, at, found)
+            return
+
+
+def _places(
+    draft: Draft, held: list[Condition], at: Places, free: list[list[str]], starts: int
+) -> dict[str, complex] | None:
+    """Places that agree: of new points alone, else of the ends of what does not agree where these need not move much
+    farther than all together, else of all."""
+    fresh, movable = free
+    if (found := nearest(held, at, fresh, starts=starts)) and _agrees(draft, held, {**at, **found}):
+        return found
+    off = {point for each in held if not _agrees(draft, [each], at) for point in each.points}
+    ends = [name for name in movable if name in off]
+    found = nearest(held, at, movable, starts=starts)
+    if not found or not _agrees(draft, held, {**at, **found}):
+        return None
+    few = nearest(held, at, ends, starts=0) if len(ends) < len(movable) else None
+    if few and _agrees(draft, held, {**at, **few}) and _way(at, few) <= FARTHER * _way(at, found):
+        return few
+    return found
+
+
+def _way(at: Places, found: Places) -> float:
+    return math.hypot(*(abs(place - at[name]) for name, place in found.items()))
 
 
 def _agrees(draft: Draft, wanted: list[Condition], at: Places) -> bool:

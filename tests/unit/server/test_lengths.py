@@ -171,3 +171,21 @@ def test_points_are_added_fixed_and_freed() -> None:
     loose = done(text, {"do": "fix", "point": "O1", "fixed": False})
     assert "driver" not in loose.text
     assert loose.picture["points"]["O1"] == [0, 0]
+
+
+def test_the_ends_of_a_typed_length_move_alone_where_that_is_no_farther() -> None:
+    """The crank stays where it is drawn; the joint of coupler and rocker goes where both are as long as typed."""
+    text = done(
+        NEW,
+        *PIVOTS,
+        bar(["O1", "A"], "50", places={"A": [0.03, 0.04]}),
+        bar(["A", "B"], "150", places={"B": [0.16, 0.12]}),
+        bar(["B", "O2"], "125"),
+    )
+    places = text.picture["points"]
+    assert places["A"] == [0.03, 0.04]
+    apart = math.dist(places["A"], places["B"]), math.dist(places["B"], places["O2"])
+    assert apart == pytest.approx((0.15, 0.125), abs=2e-5)
+    longer = done(text.text, {"do": "set", "path": ["links", "link1", "length"], "value": "60 mm"})
+    x, y = longer.picture["points"]["A"]
+    assert math.atan2(y, x) == pytest.approx(math.atan2(4, 3), abs=0.2)  # it hardly turns
