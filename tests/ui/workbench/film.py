@@ -1,9 +1,9 @@
 """Hands on the workbench, filmed: ``python -m tests.ui.workbench.film FOLDER [SCENE ...]`` writes a picture for every
 step, and says how long each scene took and what axe found.
 
-The scenes are those of the target in ``shared/studio`` and what a person who never writes a model file must be able to
-do: a four-bar with its torque curve in a minute, Jansen's leg by typed lengths, a press with an aimed load, exercise
-sheets of a drawing, all of it by keyboard or by touch, and at 200 % zoom.
+The scenes are the states of the studio's visual target, and what someone who never writes a model file must be able
+to do: a four-bar with its torque curve, a press with an aimed load and its report, all of it by keys or by touch, and
+at 200 % zoom.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from typing import Any
 
 from axe_playwright_python.sync_playwright import Axe
 from tests.ui.browser import browser
-from tests.ui.workbench.hand import DESK, PHONE, Hand, hand
+from tests.ui.workbench.hand import PHONE, Hand, hand
 
 import linkwright as lw
 
@@ -43,7 +43,9 @@ class Film:
             self.axe.append(f"{self.name}-{self.number:02d}-{what}: {each['id']} ({each['impact']}): {nodes}")
 
     @contextmanager
-    def hand(self, gallery: str | None = None, *, dark: bool = False, zh: bool = False, **options: Any) -> Iterator[Hand]:
+    def hand(
+        self, gallery: str | None = None, *, dark: bool = False, zh: bool = False, **options: Any
+    ) -> Iterator[Hand]:
         """A hand in a folder of its own, with a machine of the gallery where one is named."""
         with tempfile.TemporaryDirectory() as folder:
             name = None

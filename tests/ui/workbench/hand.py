@@ -198,11 +198,19 @@ class Hand(Worded):
 
 @contextmanager
 def hand(
-    chromium: Any, folder: Path, file: str | None = None, *, size: dict[str, int] | None = None, touch: bool = False
+    chromium: Any,
+    folder: Path,
+    file: str | None = None,
+    *,
+    size: dict[str, int] | None = None,
+    touch: bool = False,
+    bypass_csp: bool = False,
 ) -> Iterator[Hand]:
     """A hand on the workbench of a folder, in a window of its own; errors on the page fail the test."""
     with serving(folder, file) as studio:
-        context = chromium.new_context(viewport=size or DESK, has_touch=touch, reduced_motion="reduce")
+        context = chromium.new_context(
+            viewport=size or DESK, has_touch=touch, reduced_motion="reduce", bypass_csp=bypass_csp
+        )
         found = Hand(context.new_page())
         found.tab.goto(f"{studio.url}&bench=1")
         found.tab.wait_for_function("() => globalThis.bench?.sheet.value && desk.solved.value.text !== undefined")
