@@ -47,6 +47,7 @@ DOCK: dict[str, Message] = SYNTHESIS | {
     "dock.choose_curve": _("Choose a quantity"),
     "dock.find_curve": _("Find a quantity, a link, a point …"),
     "dock.no_match": _("Nothing has all these words."),
+    "dock.no_forces": _("Torques and forces appear once something has a mass or a load: use Mass or Force."),
     "dock.what": pgettext("dock", "What"),
     "dock.of_what": pgettext("dock", "Of what"),
     "dock.as_what": pgettext("dock", "As"),

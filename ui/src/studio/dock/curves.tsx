@@ -12,15 +12,10 @@ import { chosenOf, remember } from "./chosen";
 import { Picker } from "./picker";
 import { Plot, valueAt } from "./plot";
 import { Polar } from "./polar";
-import { asWhat, colourOf, GOOD, largest, ofWhat, quantities, type Quantity, sentence, values, valuesBefore, whatOf, type Words } from "./quantities";
+import { asWhat, colourOf, GOOD, largest, ofWhat, quantities, type Quantity, sentence, values, valuesBefore, whatOf, type Words, wordsOf } from "./quantities";
 import { Name } from "./symbol";
 import { CurveTable, download } from "./table";
 import { ticksOf } from "./timeline";
-
-export function wordsOf(bench: Bench): Words {
-  const { picture } = bench.desk.solved.value, one = bench.session.value?.data.positions.inputs.length === 1;
-  return { say: bench.say, language: bench.page.language.value, driven: one ? (picture?.driver ?? null) : null };
-}
 
 /** Where the input is, as a number among the positions. */
 export const placeOf = (phase: number, { data }: Session) => phase * (data.positions.closed ? data.positions.count : data.positions.count - 1);

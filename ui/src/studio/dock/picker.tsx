@@ -76,6 +76,7 @@ export function Picker({ bench, session, words, anchor, chosen, choose, close }:
             ))}
           </ul>
           {!matches.length && <p>{say("dock.no_match")}</p>}
+          {!matches.length && !all.some((each) => each.what === "effort") && <p>{say("dock.no_forces")}</p>}
         </>
       ) : (
         <div class="picker-columns">

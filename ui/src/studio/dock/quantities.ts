@@ -3,6 +3,7 @@ import type { Language } from "../../data";
 import { unwrap } from "../../loads";
 import { isForce } from "../../numbers";
 import type { Session } from "../../session";
+import type { Bench } from "../bench";
 
 export const WHATS = [
   "position", "displacement", "velocity", "acceleration", "angle", "angular_velocity", "angular_acceleration", "transmission", "effort", "reaction", "shaking",
@@ -95,6 +96,11 @@ export interface Words {
   language: Language;
   /** The driven link, where there is one driver. */
   driven: string | null;
+}
+
+export function wordsOf(bench: Bench): Words {
+  const { picture } = bench.desk.solved.value, one = bench.session.value?.data.positions.inputs.length === 1;
+  return { say: bench.say, language: bench.page.language.value, driven: one ? (picture?.driver ?? null) : null };
 }
 
 export const whatOf = ({ what, kind }: Quantity, { say }: Words) => say(what === "effort" && kind === "force" ? "dock.q.effort_force" : `dock.q.${what}`);

@@ -20,9 +20,19 @@ export interface Swept {
 /** How long the page may be busy at a time, ms. */
 const MOMENT = 24;
 
+/** The model on which the sweeps of a session are made. */
+const models = new WeakMap<Session, Model>();
+
+async function modelOf(session: Session): Promise<Model> {
+  const known = models.get(session) ?? new Model(session.data, await code(session.data));
+  models.set(session, known);
+  return known;
+}
+
 /** Goes through a range in steps while `wanted` holds; tells what it has found now and then. */
 export async function sweep(session: Session, address: string, low: number, high: number, steps: number, tell: (found: Swept) => void, wanted: () => boolean): Promise<void> {
-  const model = new Model(session.data, await code(session.data)), base = { ...session.model.values }, figures: Figure[] = session.data.numbers;
+  const model = await modelOf(session), base = { ...session.model.values }, figures: Figure[] = session.data.numbers;
+  model.change(base);
   const values = Float64Array.from({ length: steps }, (_, k) => low + ((high - low) * k) / (steps - 1));
   const found: Swept = { address, values, metrics: Object.fromEntries(figures.map(({ id }) => [id, new Float64Array(steps).fill(NaN)])), ghosts: [], machines: new Map(), done: 0 };
   let since = performance.now();

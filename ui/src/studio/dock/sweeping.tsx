@@ -39,6 +39,10 @@ export function Sweep({ bench, session }: { bench: Bench; session: Session }) {
   const dimension = dimensions.find(({ address }) => address === hand?.address) ?? dimensions.find(({ geometry, positive }) => geometry && positive) ?? dimensions[0];
   const [found, setFound] = useState<Swept | null>(null), state = JSON.stringify(session.model.values), most = bench.layout.value === "large" ? 6 : 4;
   const range = dimension && (hand?.address === dimension.address ? hand : rangeOf(session, dimension));
+  // The range stays while the value moves in it.
+  useEffect(() => {
+    if (dimension && range && hand?.address !== dimension.address) bench.inHand.value = { address: dimension.address, low: range.low, high: range.high };
+  }, [dimension?.address]);
   useEffect(() => {
     if (!dimension || !range) return;
     let wanted = true;

@@ -5,8 +5,7 @@ import { save } from "../../living";
 import type { Session } from "../../session";
 import { quantity as quantityText, unitFor } from "../../words";
 import type { Bench } from "../bench";
-import { wordsOf } from "./curves";
-import { largest, type Quantity, sentence, values } from "./quantities";
+import { largest, type Quantity, sentence, values, wordsOf } from "./quantities";
 
 /** Rows of the table at most; digits in the file. */
 const ROWS = 73, DIGITS = 10;

@@ -34,7 +34,7 @@ export function TimeLine({ bench }: { bench: Bench }) {
 
 /** A thin bar while the text is being solved for longer than a moment. */
 function Busy({ bench }: { bench: Bench }) {
-  const { desk } = bench, [busy, setBusy] = useState(false), waits = desk.solved.value.text !== undefined && desk.solved.value.text !== desk.text.value && !desk.gone.value;
+  const { desk } = bench, [busy, setBusy] = useState(false), waits = desk.text.value !== "" && desk.solved.value.text !== desk.text.value && !desk.gone.value;
   useEffect(() => {
     if (!waits) return setBusy(false);
     const timer = setTimeout(() => setBusy(true), PATIENCE);
