@@ -59,7 +59,9 @@ def test_a_new_drawing_hides_no_other_and_asks_before_it_replaces_a_file(chromiu
         for number in (1, 2):
             shown.key("Control+Alt+n")
             tab.wait_for_function("name => desk.name.value === name", arg=f"Drawing {number}.yaml")
+            tab.locator(".first-steps").wait_for()
             shown.take("pivot")
+            tab.locator(".first-steps").wait_for(state="detached")
             shown.click((0.0, 0.0))
             shown.settle()
             tab.wait_for_function("() => desk.keptAt.value > 0")
