@@ -75,6 +75,7 @@ export function InHand({ bench, session }: { bench: Bench; session: Session }) {
           onInput={(event) => slide(Number(event.currentTarget.value))} onChange={done}
         />
       </div>
+      {model.wall && <small class="fault" role="status">{bench.page.wall(session, model.wall)}</small>}
       <div class="knob-f">
         <Typing label={say("insp.range_low")} value={`${inUnitOf(low, chosen)} ${unit}`.trim()} unit={unit} set={end("low")} />
         <button type="button" class="text" onClick={() => ((bench.inHand.value = { address, low, high }), (bench.dock.value = "sweep"))}><Icon name="sweep" size={16} />{say("insp.sweep_range")}</button>

@@ -3,6 +3,7 @@
 import { signal } from "@preact/signals";
 import type { Figure, Signal } from "../../data";
 import { number } from "../../numbers";
+import type { Design } from "../../model";
 import type { Session } from "../../session";
 import { unitFor } from "../../words";
 import type { Bench } from "../bench";
@@ -90,10 +91,27 @@ export async function ask(bench: Bench, session: Session): Promise<void> {
   const { text } = session.data, answer = await bench.desk.ask<{ metrics: Found[] }>("metrics", { text });
   if (!answer || bench.session.value !== session) return;
   found.value = { text, list: answer.metrics };
-  if (!session.model.differs) keep(answer.metrics);
+  const { model } = session;
+  if (!model.differs) keep(session, answer.metrics);
+  else if (design !== model.original) await askBefore(bench, session);
 }
 
-export const keep = (list: Found[]) => void (before.value = Object.fromEntries(list.map((each) => [keyOf(each), each.value ?? NaN])));
+/** The design whose metrics are those before. */
+let design: Design | null = null;
+
+export function keep({ model }: Session, list: Found[]): void {
+  design = model.original;
+  before.value = Object.fromEntries(list.map((each) => [keyOf(each), each.value ?? NaN]));
+}
+
+/** Asks for the metrics of the design before, by the text that it would have. */
+async function askBefore({ desk, page }: Bench, session: Session): Promise<void> {
+  const { model, data } = session, { original } = model, changed = data.dimensions.filter(({ address, written }) => written && address in original.values && original.values[address] !== model.values[address]);
+  const values = Object.fromEntries(changed.map(({ address }) => [address, original.values[address]]));
+  const set = await desk.ask<{ text: string }>("set", { text: data.text, values }), answer = set && (await desk.ask<{ metrics: Found[] }>("metrics", { text: set.text }));
+  if (answer && model.original === original) keep(session, answer.metrics);
+  else page.note.value = "";
+}
 
 const keyOf = ({ metric, subject }: Found) => `${metric} ${subject}`;
 

@@ -6,7 +6,9 @@ import type { Bench } from "../bench";
 import { Icon } from "../frame/icons";
 import { Act, Segments, Sentence, Sym } from "./fields";
 import { InHand } from "./hand";
+import { Kept } from "./kept";
 import { ask, choice, found, GROUPS, keep, type Row, rows } from "./metrics";
+import { Notes } from "./notes";
 import { Picker } from "./picker";
 
 /** Share of a change, %, that is worth saying; of a limit, that is rounding. */
@@ -25,14 +27,19 @@ function Table({ bench, session }: { bench: Bench; session: Session }) {
   const all = rows(bench, session), shown = all.filter((row) => choice.value.shown[row.key] ?? row.usual);
   const asBefore = () => {
     session.model.original = session.model.design();
-    keep(found.value.list);
+    keep(session, found.value.list);
     session.touched();
   };
   return (
     <>
       <div class="before">
         <Segments label={say("insp.numbers_shown")} value={both ? "both" : "now"} options={[["both", say("insp.before_and_now")], ["now", say("insp.now_only")]]} set={(to) => setBoth(to === "both")} />
-        {session.model.differs && <button type="button" class="text" onClick={asBefore}>{say("insp.keep_as_before")}</button>}
+        {session.model.differs && (
+          <>
+            <button type="button" class="text" onClick={asBefore}>{say("insp.keep_as_before")}</button>
+            <button type="button" class="text" onClick={() => session.take({ ...session.model.values, ...session.model.original.values })}>{say("insp.back_to_before")}</button>
+          </>
+        )}
       </div>
       <InHand bench={bench} session={session} />
       {shown.length > 0 && (
@@ -52,6 +59,8 @@ function Table({ bench, session }: { bench: Bench; session: Session }) {
         </div>
       )}
       {!all.length && found.value.text === session.data.text && <p class="quiet">{say("insp.no_metrics")}</p>}
+      <Notes bench={bench} session={session} />
+      <Kept bench={bench} session={session} />
       {picking && <Picker bench={bench} session={session} all={all} close={() => pick(false)} />}
       <div class="row-acts last">
         <button type="button" class="quietly" aria-expanded={picking} onClick={() => pick(!picking)}><Icon name="plus" size={16} />{say("insp.number")}</button>

@@ -7,6 +7,7 @@ import { perform, put, set, tell } from "./change";
 import { at, isFixed, linksAt, type Path, type Table, table, word, words } from "./entries";
 import { Act, Chips, Quantity, Row, Section, Switch } from "./fields";
 import { Head, Written } from "./head";
+import { HodographPlot } from "./hodograph";
 import { keyOf, placeOf, rowAt, useNow } from "./now";
 import { inUnit } from "./quantities";
 import type { PanelProps } from "./selected";
@@ -29,6 +30,7 @@ export function PointPanel({ bench, item, entries }: PanelProps) {
       </div>
       {kind !== "point" && <Pin bench={bench} name={name} entries={entries} links={links} />}
       <Now bench={bench} name={name} fixed={fixed} />
+      <Velocity bench={bench} name={name} fixed={fixed} />
       <Written bench={bench} path={path} />
     </>
   );
@@ -93,6 +95,12 @@ function Pin({ bench, name, entries, links }: { bench: Bench; name: string; entr
       )}
     </Section>
   );
+}
+
+function Velocity({ bench, name, fixed }: { bench: Bench; name: string; fixed: boolean }) {
+  const session = bench.session.value, key = keyOf(bench, name);
+  if (!session || !key || fixed || session.model.n < 2 || !(`v:${key}` in session.model.signals)) return null;
+  return <Section bench={bench} id="insp.hodograph" title={bench.say("insp.hodograph")} open={false}>{() => <HodographPlot bench={bench} session={session} point={key} name={name} />}</Section>;
 }
 
 /** Speed, acceleration and joint forces at the position that is shown. */
