@@ -37,6 +37,8 @@ export class Scene {
   readonly pairs: ScenePair[];
   /** What is driven, with the point at which its arrow is drawn. */
   readonly drives: { name: string; at: Vec | null }[];
+  /** Points through which guides on the frame go. */
+  readonly throughs: Set<string>;
   /** Points that a link has elsewhere than the others that share them: ends that do not meet. */
   apart: Record<string, Record<string, Vec>> = {};
 
@@ -54,6 +56,7 @@ export class Scene {
       if (at && at.every(Number.isFinite)) this.points.set(name, { name, key, at, fixed: fixed.includes(name), links: own });
     }
     this.hang(picture?.loose ?? [], points);
+    this.throughs = new Set(Object.values(picture?.guides ?? {}).flatMap(({ guide, through }) => (guide === "frame" ? [through] : [])));
     this.drives = Object.entries(picture?.drives ?? {}).map(([drive, { about }]) => ({ name: drive, at: about ? this.at(about) : null }));
     this.pairs = Object.entries(typeof joints === "object" && !Array.isArray(joints) ? joints : {}).flatMap(([pair, entry]) => {
       if (typeof entry !== "object" || Array.isArray(entry)) return [];

@@ -20,7 +20,7 @@ import { drawMarks, inkOf, lengths, type Placed } from "./marks";
 import { pointWords, spoken } from "./names";
 import { Pencil } from "./overlay";
 import { Scene } from "./scene";
-import { Sketch } from "./sketch";
+import { bareOf, Sketch } from "./sketch";
 import { REACH, snap } from "./snap";
 
 /** Tools that work on the machine as it stands or on what lies beside it: the others draw, at the drawn position. */
@@ -284,7 +284,7 @@ export class Board implements Sheet {
       this.view.taken = ink;
       this.view.look();
     }
-    const known = base && (base.added ?? (this.picture?.loose?.length ? this.picture : null)), drawn = known && without(known, known.loose ?? []);
+    const now = this.picture ?? null, bare = bareOf(this.scene), known = base && (base.added ?? (now?.loose?.length || bare.length ? now : null)), drawn = known && without(known, known.loose ?? [], bare);
     if (base && !drawn && !broken) sketch.clear();
     else sketch.draw(this.stand, bench.desk.solved.value.outline?.entries.joints, camera, bench.shows("names"), broken ? null : drawn, ink);
     this.seen = seen;
@@ -468,7 +468,7 @@ function grown(old: Picture, now: Picture): boolean {
 }
 
 /** A picture without some of its links, and the points that only these have. */
-function without(picture: Picture, loose: string[]): Picture {
+function without(picture: Picture, loose: string[], bare: string[]): Picture {
   const links = Object.fromEntries(Object.entries(picture.links).filter(([name]) => !loose.includes(name))), left = new Set([...Object.values(links).flat(), ...picture.fixed]);
-  return { ...picture, links, points: Object.fromEntries(Object.entries(picture.points).filter(([name]) => left.has(name))) };
+  return { ...picture, links, points: Object.fromEntries(Object.entries(picture.points).filter(([name]) => left.has(name) && !bare.includes(name))) };
 }

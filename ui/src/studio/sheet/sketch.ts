@@ -42,7 +42,7 @@ export class Sketch {
       element("path", { class: `${wide ? "lw-plate" : "lw-bar"}${name === scene.driver ? " driven" : ""}`, d: line(around, wide) }, layer.bodies);
     }
     if (!known) drawPairs(layer, stand, joints, camera);
-    for (const { name, at, fixed, links } of scene.points.values()) {
+    for (const { name, key, at, fixed, links } of scene.points.values()) {
       const old = known && name in known.points && known.fixed.includes(name) === fixed && known.guided.includes(name) === scene.guided.includes(name);
       if ((old && linksOf(known, name) === links.length) || covered(scene, name)) continue;
       const [x, y] = camera.screen(at), put = (symbol: string, host: SVGElement) => {
@@ -60,7 +60,8 @@ export class Sketch {
       const inner = !fixed && links.length === 1 && scene.links[links[0]].length > 2 && !scene.guided.includes(name);
       element("circle", { class: inner ? "lw-point" : "lw-pin", cx: x.toFixed(1), cy: y.toFixed(1), r: inner ? POINT : PIN }, layer.pins);
       inked([[x - 5, y - 5], [x + 5, y + 5], [x - 5, y + 5], [x + 5, y - 5]]);
-      if (!known || !(name in known.points)) labelled.push(name);
+      // Points of the machine have their names there.
+      if (!known || (!key && !(name in known.points))) labelled.push(name);
     }
     // Names stay where they are while the points are the same.
     const shown = names ? labelled.join() : "";
@@ -76,9 +77,13 @@ export class Sketch {
 const same = (a: string[] | undefined, b: string[]) => a?.join() === b.join();
 const linksOf = (picture: Picture, point: string) => Object.values(picture.links).filter((points) => points.includes(point)).length;
 
+/** Points that no link has, which a machine leaves out. */
+export const bareOf = (scene: Scene) => [...scene.points.values()].filter(({ name, links }) => !links.length && !covered(scene, name)).map(({ name }) => name);
+
 /** Whether a fixed point is under a block that it guides. */
-function covered({ guided, points }: Scene, name: string): boolean {
+function covered({ guided, points, throughs }: Scene, name: string): boolean {
   const point = points.get(name)!;
+  if (!point.links.length && throughs.has(name)) return true;
   return point.fixed && !point.links.length && guided.some((block) => {
     const at = points.get(block)?.at;
     return at && Math.hypot(at[0] - point.at[0], at[1] - point.at[1]) < 1e-6;
