@@ -28,7 +28,7 @@ STEPS_OFF, SHARE_OFF = 1.5, 1e-3
 #: Sizes that are rounded agree with coordinates that are within so many steps.
 AGREED = 0.8
 #: Few points move alone where they need not move so many times farther than all together.
-FARTHER = 1.5
+FARTHER = 1.1
 
 
 @dataclass(frozen=True)
