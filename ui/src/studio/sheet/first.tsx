@@ -23,10 +23,11 @@ function empty({ bench }: Board): boolean {
 export function First({ board }: { board: Board }) {
   const { bench } = board, shown = empty(board), { name } = bench.desk;
   useEffect(() => {
-    if (!shown) return;
-    if (bench.tool.peek() === "move") bench.tool.value = "pivot";
-    const begin = () => (begun.value = new Set([...begun.value, name.value]));
-    // Who takes a tool, on the rail or by its key, begins as well.
+    if (shown && bench.tool.peek() === "move") bench.tool.value = "pivot";
+  }, [shown]);
+  useEffect(() => {
+    const begin = () => begun.value.has(name.value) || (begun.value = new Set([...begun.value, name.value]));
+    // Who takes a tool, on the rail or by its key, begins as well, be it before the steps are there to see.
     const pressed = ({ target }: Event) => target instanceof Element && target.closest("button[data-tool]") && begin();
     const typed = ({ key, target, ctrlKey, metaKey, altKey }: KeyboardEvent) => {
       if (!ctrlKey && !metaKey && !altKey && !writes(target) && Object.values(KEYS).includes(key.toUpperCase())) begin();
@@ -39,7 +40,7 @@ export function First({ board }: { board: Board }) {
       document.removeEventListener("click", pressed);
       document.removeEventListener("keydown", typed);
     };
-  }, [shown]);
+  }, []);
   if (!shown) return null;
   const say = (key: string, values?: Record<string, string>) => bench.say(key, values);
   const take = (tool: ToolName) => {
