@@ -57,6 +57,8 @@ export interface Photo {
 /** Settings of the person at the screen, remembered in the browser, not in the file. */
 export interface Settings {
   theme: "light" | "dark" | "";
+  /** As it was chosen; "": the server's. */
+  language: "en" | "zh" | "";
   slim: boolean | null;
   /** Width of the inspector and height of the open dock, px; null: as the window suggests. */
   inspector: number | null;
@@ -72,7 +74,7 @@ export interface Settings {
   folds: Record<string, boolean>;
 }
 
-const SETTINGS: Settings = { theme: "", slim: null, inspector: null, dock: null, snap: true, grid: 0, unit: "mm", used: {}, shown: {}, folds: {} };
+const SETTINGS: Settings = { theme: "", language: "", slim: null, inspector: null, dock: null, snap: true, grid: 0, unit: "mm", used: {}, shown: {}, folds: {} };
 const STORED = "linkwright.settings";
 
 export class Bench {
@@ -186,6 +188,12 @@ export class Bench {
     } catch {
       // A browser that stores nothing forgets the settings with the page.
     }
+  }
+
+  /** Shows everything in another language, the next time as well. */
+  speak(language: "en" | "zh"): void {
+    this.set({ language });
+    this.desk.speak(language);
   }
 
   show(name: ShownName, on: boolean): void {

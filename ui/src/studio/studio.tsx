@@ -123,8 +123,8 @@ function remember(values: Record<string, string>): void {
 async function open(): Promise<void> {
   const data = JSON.parse(document.getElementById("data")!.textContent) as PageData & { file: string | null };
   const known = new URLSearchParams(location.search), file = known.get("file") ?? data.file, language = known.get("lang");
-  if (language === "en" || language === "zh") data.language = language;
   const page = new Page(data, []), desk = new Desk(page), bench = new Bench(desk);
+  page.language.value = language === "en" || language === "zh" ? language : bench.settings.value.language || data.language;
   followTheme(bench);
   followWindow(bench);
   listen(bench, shortcuts(bench));

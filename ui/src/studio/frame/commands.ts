@@ -58,7 +58,7 @@ const toolCommands = (bench: Bench): Command[] =>
   TOOLS.map((tool) => ({ group: "tool", label: nameOf(bench, tool), icon: iconOf(bench, tool), keys: KEYS[tool], act: () => void (bench.tool.value = tool) }));
 
 function viewCommands(bench: Bench): Command[] {
-  const { say, page, desk } = bench, view = (label: string, act: () => void, icon?: IconName, keys?: string): Command => ({ group: "view", label, act, icon, keys });
+  const { say, page } = bench, view = (label: string, act: () => void, icon?: IconName, keys?: string): Command => ({ group: "view", label, act, icon, keys });
   const shown = SHOWN.map((name) => view(say("layer.toggle", { name: say(`layer.${name}`) }), () => bench.show(name, !bench.shows(name)), bench.shows(name) ? "eye" : "eye_off"));
   return [
     view(page.say(page.playing.value ? "pause" : "play"), () => page.play(!page.playing.value), page.playing.value ? "pause" : "play", say("key.space")),
@@ -69,7 +69,7 @@ function viewCommands(bench: Bench): Command[] {
     ...TABS.map((tab) => view(say(`go.${tab}`), () => void (bench.tab.value = tab), "rail")),
     ...DOCKS.map((dock) => view(say(`dock.${dock}`), () => void (bench.dock.value = dock), "curves")),
     ...(["light", "dark", ""] as const).map((theme) => view(`${say("theme")}: ${say(`theme.${theme || "system"}`)}`, () => bench.set({ theme }), theme === "dark" ? "moon" : theme ? "sun" : "contrast")),
-    view(page.language.value === "en" ? "中文" : "English", () => desk.speak(page.language.value === "en" ? "zh" : "en"), "info"),
+    view(page.language.value === "en" ? "中文" : "English", () => bench.speak(page.language.value === "en" ? "zh" : "en"), "info"),
     view(say("keys.title"), () => void (bench.dialog.value = { kind: "keys" }), "keyboard", "?"),
   ];
 }

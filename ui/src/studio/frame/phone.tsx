@@ -35,7 +35,7 @@ function PhoneBar({ bench }: { bench: Bench }) {
     ...fileChoices(bench), null,
     { label: `${bench.say("export")}…`, icon: "export", act: () => below(bench.say("export"), exportCommands(bench)) },
     { label: bench.say("palette"), icon: "search", act: () => (bench.dialog.value = { kind: "palette" }) },
-    { label: other === "zh" ? "中文" : "English", icon: "info", act: () => bench.desk.speak(other) },
+    { label: other === "zh" ? "中文" : "English", icon: "info", act: () => bench.speak(other) },
     { label: `${bench.say("theme")}…`, icon: "sun", act: () => below(bench.say("theme"), themes(bench)) },
     { label: bench.say("keys.title"), icon: "keyboard", act: () => (bench.dialog.value = { kind: "keys" }) },
   ];

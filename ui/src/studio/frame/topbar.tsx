@@ -122,7 +122,7 @@ export function Steps({ bench }: { bench: Bench }) {
 
 function Language({ bench }: { bench: Bench }) {
   const other = bench.page.language.value === "en" ? "zh" : "en";
-  return <button class="ghost" lang={other === "zh" ? "zh-CN" : "en"} onClick={() => bench.desk.speak(other)}>{other === "zh" ? "中文" : "English"}</button>;
+  return <button class="ghost" lang={other === "zh" ? "zh-CN" : "en"} onClick={() => bench.speak(other)}>{other === "zh" ? "中文" : "English"}</button>;
 }
 
 const THEMES = ["light", "dark", ""] as const;
