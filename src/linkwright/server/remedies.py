@@ -107,7 +107,8 @@ def _rock(gap: Gap) -> Remedy:
     free = MARGIN * (high - low)
     nearest = min((low + free, high - free), key=lambda end: _off(end - gap.input, gap.rotary))
     title = _("Rock the {link}", link=gap.driver.link)
-    return Remedy(title, change, _SIZES, [action], places=_places(gap.machine, nearest))
+    places = _places(gap.machine, nearest)
+    return Remedy(title, change, _SIZES, [action, *_drawn(gap.machine, places)], places=places)
 
 
 def _off(way: float, rotary: bool) -> float:
@@ -188,7 +189,8 @@ def _length_remedy(gap: Gap, arm: Arm, path: list[str], value: float, changed: M
     title = _LENGTHS[value > before].format(link=arm.link)
     action = {"do": "set", "path": path, "value": new}
     places = _places(changed, gap.input)
-    return Remedy(title, _change(before, value), _through(gap), [action], {arm.link: value}, places)
+    actions = [action, *_drawn(changed, places)]
+    return Remedy(title, _change(before, value), _through(gap), actions, {arm.link: value}, places)
 
 
 def _through(gap: Gap) -> Message:
@@ -251,7 +253,8 @@ def _moved(gap: Gap, name: str, middle: complex, away: complex, distance: float,
     title = _("Move {point} nearer", point=written(name)) if far else _("Move {point} away", point=written(name))
     action = {"do": "set", "path": ["frame", "points", name], "value": [_text(x), _text(y)]}
     places = _places(changed, gap.input)
-    return Remedy(title, _change(abs(away), distance), _through(gap), [action], {"frame": distance}, places)
+    actions = [action, *_drawn(changed, places)]
+    return Remedy(title, _change(abs(away), distance), _through(gap), actions, {"frame": distance}, places)
 
 
 def _moving(machine: Mechanism, changes: Mapping[str, float]) -> Mechanism | None:
@@ -261,6 +264,16 @@ def _moving(machine: Mechanism, changes: Mapping[str, float]) -> Mechanism | Non
         return changed if try_motion(changed, TRIED).complete else None
     except LinkwrightError:
         return None
+
+
+def _drawn(machine: Mechanism, places: Mapping[str, list[float]]) -> list[Plain]:
+    """The action that draws the points where they would be, so that the assembly stays that of the drawing; none
+    where the drawing gives links their sizes."""
+    if any(link.geometry == "drawing" for link in machine.links.values()):
+        return []
+    drawn = {name: places[name] for name in machine.drawing if name in places}
+    locked = [address for link in machine.links.values() for address in link.geometry_dimensions()]
+    return [{"do": "move", "points": drawn, "locked": locked}] if drawn else []
 
 
 def _places(machine: Mechanism, at: float) -> dict[str, list[float]]:

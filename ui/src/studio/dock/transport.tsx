@@ -2,6 +2,7 @@
 import { effect } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
+import type { Action } from "../../picture";
 import type { Session } from "../../session";
 import { put } from "../../strokes";
 import { digits, quantity } from "../../words";
@@ -72,7 +73,10 @@ function rocks(bench: Bench): boolean {
 function Cycle({ bench }: { bench: Bench }) {
   const rock = rocks(bench);
   const choose = (wanted: boolean) => {
-    if (wanted !== rock) void bench.desk.act([wanted ? { do: "set", path: ["cycle"], value: "rock" } : { do: "unset", path: ["cycle"] }]);
+    if (wanted === rock) return;
+    // A remedy also draws the machine where it can be, on the side where it is drawn.
+    const rocking = bench.gap.value?.remedies.find(({ actions }) => (actions[0] as Action | undefined)?.path?.toString() === "cycle")?.actions;
+    void bench.desk.act(wanted ? (rocking ?? [{ do: "set", path: ["cycle"], value: "rock" }]) : [{ do: "unset", path: ["cycle"] }]);
   };
   return (
     <div class="segment" role="group" aria-label={bench.say("dock.cycle")}>
