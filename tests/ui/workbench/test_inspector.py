@@ -153,3 +153,19 @@ def test_a_finding_leads_to_its_element_and_its_line(chromium: Any, tmp_path: Pa
         for key in ("ArrowLeft", "Home"):
             it.tab.locator(".inspector [role=tab][aria-selected=true]").press(key)
         assert it.tab.evaluate("() => bench.tab.value") == "inspect"
+
+
+def test_numbers_stand_before_and_now(chromium: Any, tmp_path: Path) -> None:
+    """The stroke of an in-line slider-crank is twice the crank; the dimension in hand is typed, then taken back."""
+    with inspecting(chromium, tmp_path, PRESS) as it:
+        it.tab.evaluate("() => (bench.tab.value = 'numbers')")
+        stroke = it.tab.locator('.pane tr[data-metric="stroke guide"]')
+        stroke.wait_for()
+        assert stroke.locator("td").all_inner_texts()[:2] == ["120", "120mm"]
+        it.put("value_of", "70", name="crank.length")
+        it.tab.wait_for_function("() => !document.querySelector('.pane .stale') && desk.text.value.includes('70 mm')")
+        assert stroke.locator("td").all_inner_texts() == ["120", "140mm", "+17 %"]
+        it.button("studio.insp.back_to_before").click()
+        it.tab.wait_for_function("() => desk.text.value.includes('length: 60 mm')")
+        it.settle()
+        assert stroke.locator("td").all_inner_texts()[:2] == ["120", "120mm"]

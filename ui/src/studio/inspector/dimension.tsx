@@ -15,7 +15,7 @@ export function DimensionPanel({ bench, item, entries }: PanelProps) {
       <Head bench={bench} icon="dimension" title={name} item={item} fixedName locks={[name]} remove={null}>{say("insp.dimension_about")}</Head>
       <div class="form">
         {path && <Quantity label={say("insp.value")} value={value} unit={known?.unit ?? bench.settings.value.unit} set={(text) => set(bench, path, text)} />}
-        <Quantity label={say("insp.tolerance")} value={word(at(entries, "optimize", "tolerance", name))} unit={known?.unit ?? "mm"} preset="–" optional set={(text) => put(bench, ["optimize", "tolerance", name], text)} />
+        {at(entries, "optimize", "vary") !== undefined && <Quantity label={say("insp.tolerance")} value={word(at(entries, "optimize", "tolerance", name))} unit={known?.unit ?? "mm"} preset="–" optional set={(text) => put(bench, ["optimize", "tolerance", name], text)} />}
         {owner && <Chips label={say("insp.belongs")} names={[owner.name]} symbols={owner.kind === "point"} pick={() => bench.select(owner)} />}
       </div>
       {known && <div class="row-acts"><Act icon="sweep" act={() => sweep(bench, name)}>{say("insp.sweep")}</Act></div>}
