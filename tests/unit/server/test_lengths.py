@@ -189,3 +189,43 @@ def test_the_ends_of_a_typed_length_move_alone_where_that_is_no_farther() -> Non
     longer = done(text.text, {"do": "set", "path": ["links", "link1", "length"], "value": "60 mm"})
     x, y = longer.picture["points"]["A"]
     assert math.atan2(y, x) == pytest.approx(math.atan2(4, 3), abs=0.06)  # it hardly turns
+
+
+def test_blocks_stay_on_their_guides_and_in_their_slots() -> None:
+    """Whatever length is set or joint dragged; the solved slider is where (l² - (y - e)²)^½ says."""
+    text = done(
+        NEW,
+        PIVOTS[0],
+        bar(["O1", "A"], "50", places={"A": [0.03, 0.04]}),
+        bar(["A", "B"], "150", places={"B": [0.17, 0.011]}),
+        {"do": "guide", "at": "B", "angle": 0},
+        {"do": "driver", "link": "link1"},
+    ).text
+    e = metres(yaml.safe_load(text)["frame"]["points"]["G1"][1])
+    held = ["crank.length", "coupler.length"]
+    changed = done(
+        text,
+        {"do": "set", "path": ["links", "coupler", "length"], "value": "160 mm"},
+        {"do": "move", "points": {"B": [0.18, 0.05]}, "locked": held},
+    )
+    places = changed.picture["points"]
+    assert places["B"] == pytest.approx([0.18, e], abs=1e-3)
+    assert places["B"][1] == pytest.approx(e, abs=1e-4)
+    assert re.findall(r"length: ([^}]*)}", changed.text) == ["50 mm", "160 mm"]
+    motion = lw.solve_motion(lw.loads(changed.text), steps=36)
+    a, b = motion.point("A").position, motion.point("B").position
+    assert b[:, 0] == pytest.approx(a[:, 0] + np.sqrt(0.16**2 - (a[:, 1] - e) ** 2), rel=1e-12)
+    slotted = done(
+        NEW,
+        PIVOTS[0],
+        {"do": "point", "name": "O2", "at": [0.0, -0.2], "fixed": True},
+        bar(["O1", "A"], "60", places={"A": [0.05, 0.033]}, name="crank"),
+        bar(["O2", "B"], "300", places={"B": [0.07, 0.09]}, name="lever"),
+        {"do": "slot", "along": "lever", "at": "A"},
+        {"do": "set", "path": ["links", "crank", "length"], "value": "80 mm"},
+    )
+    offset = metres(yaml.safe_load(slotted.text)["joints"]["slot1"]["offset"])
+    o, a, b = (complex(*slotted.picture["points"][each]) for each in ("O2", "A", "B"))
+    assert ((b - o).conjugate() * (a - o)).imag / abs(b - o) == pytest.approx(offset, abs=1.5e-4)
+    assert (abs(a), abs(b - o)) == pytest.approx((0.08, 0.3), abs=5e-5)
+    assert slotted.picture["unmet"] == []
