@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import base64
 import zlib
+from pathlib import Path
 
 import pytest
+from tests.ui.studio import asked, serving
 
 import linkwright as lw
 from linkwright.server.files import LARGEST
@@ -25,6 +27,14 @@ def test_a_link_gives_its_text() -> None:
     assert model_of("see " + link(TEXT.encode()) + " here") == TEXT
     assert holds_model(link(b"x"))
     assert not any(map(holds_model, ("crusher.yaml", "model.yaml", "https://any.example/#0.crank.length=0.1")))
+
+
+def test_the_command_opens_a_link_as_a_new_drawing_each_time(tmp_path: Path) -> None:
+    for number in (1, 2):
+        with serving(tmp_path, link(TEXT.encode())) as studio:
+            status, found = asked(studio, "open", {"name": f"Drawing {number}.yaml"})
+            assert (status, found["text"], found["version"], found["recovered"]) == (200, TEXT, "", True)
+    assert list(tmp_path.glob("*.yaml")) == []
 
 
 @pytest.mark.parametrize(
