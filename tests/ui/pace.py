@@ -1,4 +1,5 @@
-"""What a drag costs the browser, how ghost curves move, how long opening takes: ``python -m tests.ui.pace``.
+"""What a drag costs the browser on a page and on the workbench, how ghost curves move, how long opening takes:
+``python -m tests.ui.pace``.
 
 From a pointer's move to new curves on the screen the page's main thread works (scripts, style, layout, recording of
 what is painted), threads fill the picture and the compositor puts it together. Chromium draws frames here as soon as
@@ -25,20 +26,21 @@ from pathlib import Path
 from typing import Any
 
 from tests.ui.browser import Opened, browser
+from tests.ui.workbench.hand import hand
 
 import linkwright as lw
 
 MOVES, FRAMES, STEPS, OPENINGS = 240, 120, 360, 7
 UNLIMITED = ("--disable-frame-rate-limit", "--disable-gpu-vsync")
+#: The window of which the workbench shows six curves.
+LARGE = {"width": 1920, "height": 1200}
 #: Between two moves, ms: a display's frame.
 DISPLAY = 1000 / 60
 _DRAG = """async ([moves, pause]) => {
-  const s = linkwright.sessions[0], v = s.view, box = v.svg.getBoundingClientRect();
-  const h = v.svg.querySelector('.handle[data-key="B"]'), found = [];
-  const x0 = +h.getAttribute('cx') + box.left, y0 = +h.getAttribute('cy') + box.top;
-  h.setPointerCapture = () => {};
-  const send = (kind, x, y) => h.dispatchEvent(new PointerEvent(kind,
-    {bubbles: true, clientX: x, clientY: y, pointerId: 1, buttons: 1}));
+  const {element, x: x0, y: y0} = (GRASP)(), found = [];
+  element.setPointerCapture = () => {};
+  const send = (kind, x, y) => element.dispatchEvent(new PointerEvent(kind,
+    {bubbles: true, clientX: x, clientY: y, pointerId: 1, buttons: 1, pointerType: 'mouse'}));
   send('pointerdown', x0, y0);
   for (let k = 0; k < moves; k++) {
     const angle = 0.2 * k;
@@ -56,6 +58,23 @@ _DRAG = """async ([moves, pause]) => {
   send('pointerup', x0, y0);
   return found;
 }"""
+#: A joint of a page, and one on the sheet of the workbench.
+_HANDLE = _DRAG.replace(
+    "GRASP",
+    """() => {
+      const {svg} = linkwright.sessions[0].view, box = svg.getBoundingClientRect();
+      const element = svg.querySelector('.handle[data-key="B"]');
+      return {element, x: +element.getAttribute('cx') + box.left, y: +element.getAttribute('cy') + box.top};
+    }""",
+)
+_JOINT = _DRAG.replace(
+    "GRASP",
+    """() => {
+      const element = document.querySelector('.paper'), box = element.getBoundingClientRect();
+      const {camera, scene} = bench.sheet.value, [x, y] = camera.screen(scene.at('B'));
+      return {element, x: x + box.left, y: y + box.top};
+    }""",
+)
 _PLAY = """async ([frames]) => {
   linkwright.play(true);
   const times = [];
@@ -89,21 +108,21 @@ _MAIN = {
 _COMPOSITORS = ("Compositor", "VizCompositorThread")
 
 
-def traced(page: Opened) -> tuple[list[float], dict[str, list[float]]]:
+def traced(tab: Any, drag: str) -> tuple[list[float], dict[str, list[float]]]:
     """Times by the clock (ms) from each move of a drag to its frame; of a second one, which a trace makes slower,
     processor times (ms) by kind of work."""
-    times = page.tab.evaluate(_DRAG, [MOVES, DISPLAY])
-    client = page.tab.context.browser.new_browser_cdp_session()
+    times = tab.evaluate(drag, [MOVES, DISPLAY])
+    client = tab.context.browser.new_browser_cdp_session()
     events: list[dict[str, Any]] = []
     ended: list[bool] = []
     client.on("Tracing.dataCollected", lambda found: events.extend(found["value"]))
     client.on("Tracing.tracingComplete", lambda _: ended.append(True))
     config = {"includedCategories": list(_CATEGORIES)}
     client.send("Tracing.start", {"transferMode": "ReportEvents", "traceConfig": config})
-    page.tab.evaluate(_DRAG, [MOVES, DISPLAY])
+    tab.evaluate(drag, [MOVES, DISPLAY])
     client.send("Tracing.end")
     while not ended:
-        page.tab.wait_for_timeout(50)
+        tab.wait_for_timeout(50)
     return times, _by_move(events)
 
 
@@ -174,8 +193,23 @@ def opened(folder: Path, *arguments: str) -> Iterator[Opened]:
         page = Opened(chromium.new_context(viewport={"width": 1280, "height": 900}).new_page())
         page.open(path)
         page.run("s => { s.curves.value = s.data.signals.slice(-6).map(x => x.id); s.shown.paths.add('B'); }")
-        page.tab.evaluate(_DRAG, [60, 0])
+        page.tab.evaluate(_HANDLE, [60, 0])
         yield page
+
+
+@contextmanager
+def workbench(folder: Path, *arguments: str) -> Iterator[Any]:
+    """The six-bar crusher on the workbench, velocities and forces shown, six curves in the dock."""
+    (folder / "machine.yaml").write_text(lw.read_document("gallery:jaw_crusher_sixbar").text, encoding="utf-8")
+    with browser(*arguments) as chromium, hand(chromium, folder, "machine.yaml", size=LARGE) as found:
+        found.tab.evaluate("""() => {
+          bench.dock.value = 'curves';
+          for (const name of ['velocities', 'forces']) bench.show(name, true);
+        }""")
+        found.tab.wait_for_function("() => document.querySelectorAll('.dock .plot canvas').length === 6")
+        found.tab.evaluate(_JOINT, [60, 0])
+        found.settle()
+        yield found.tab
 
 
 _GHOSTS = (
@@ -239,9 +273,11 @@ def main(arguments: list[str]) -> int:
     with tempfile.TemporaryDirectory() as folder:
         with opened(Path(folder), *UNLIMITED) as page:
             found.append(said("solving 360 positions, all reactions", [page.run(_SOLVE)]))
-            found += said_of_drag("drag with six curves", *traced(page))
+            found += said_of_drag("drag with six curves", *traced(page.tab, _HANDLE))
             page.run(_GHOSTS)
-            found += said_of_drag("drag over 500 ghost curves", *traced(page))
+            found += said_of_drag("drag over 500 ghost curves", *traced(page.tab, _HANDLE))
+        with workbench(Path(folder), *UNLIMITED) as tab:
+            found += said_of_drag("drag on the workbench, vectors and six curves", *traced(tab, _JOINT))
         with opened(Path(folder)) as page:
             found.append(said("playing, from frame to frame", page.tab.evaluate(_PLAY, [FRAMES])))
             page.run(_GHOSTS)

@@ -23,11 +23,13 @@ export interface Shown {
   ticks: { share: number; text: string }[];
 }
 
-const LEFT = 44, RIGHT = 10, TOP = 10, BOTTOM = 20, FONT = 11, NEAR = 0.1;
+const LEFT = 44, RIGHT = 10, TOP = 10, BOTTOM = 20, NEAR = 0.1, LETTERS = "11px system-ui, sans-serif";
 /** Colours of kept variants, in their order. */
 const KEPT = ["a", "b", "c", "d"] as const;
 /** Share of the scale's height below which numbers at the axis would cover each other. */
 const APART = 14;
+/** Room of the numbers at the scale on the left of it, of the texts at the foot, px. */
+const SIDE = 5, FOOT = 15;
 
 export class Plot {
   readonly end: () => void;
@@ -40,6 +42,12 @@ export class Plot {
   private scale: [low: number, high: number] = [0, 1];
   private size: [wide: number, tall: number] = [0, 0];
   private at: [place: number, value: number] = [0, NaN];
+  /** The shares across the canvas. */
+  private us = new Float64Array();
+  /** Curves that are compared with, and what their paths depend on. */
+  private paths: { places: unknown[]; known: Map<ArrayLike<number>, Path2D> } = { places: [], known: new Map() };
+  /** The texts that are painted. */
+  private texts: { side: string; ticks: Shown["ticks"] | null } = { side: "", ticks: null };
 
   constructor(private readonly host: HTMLElement) {
     const { canvas, pen, end } = painted(host, () => this.resized());
@@ -87,7 +95,9 @@ export class Plot {
     return Math.min(1, Math.max(0, place / last));
   }
 
+  /** A canvas forgets all with its size; colours have changed. */
   private resized(): void {
+    this.texts = { side: "", ticks: null };
     this.paint();
     this.put();
   }
@@ -119,7 +129,7 @@ export class Plot {
     this.line.style.height = `${tall - TOP - BOTTOM}px`;
     const colour = colours(), floor = tall - BOTTOM, end = wide - RIGHT;
     pen.setTransform(dense, 0, 0, dense, 0, 0);
-    pen.clearRect(0, 0, wide, tall);
+    pen.clearRect(LEFT - SIDE, 0, wide, tall - FOOT);
     pen.lineJoin = "round";
     const stroke = (path: Path2D, style: string, width: number, dashes: number[] = []) => {
       [pen.strokeStyle, pen.lineWidth] = [style, width];
@@ -129,37 +139,62 @@ export class Plot {
     const [low, high] = this.scale, zero = low < 0 && high > 0;
     stroke(new Path2D(shown.ticks.map(({ share }) => `M${this.u(share)} ${TOP}V${floor}`).join("")), colour["grid-major"], 1);
     stroke(new Path2D(`M${LEFT} ${TOP}V${floor}H${end}${zero ? `M${LEFT} ${this.v(0)}H${end}` : ""}`), colour.axis, 1);
-    if (shown.before) stroke(this.path(shown.before, shown, []), colour.soft, 1.3, [4, 3]);
-    shown.kept.forEach((values, k) => stroke(this.path(values, shown, []), colour[KEPT[k % KEPT.length]], 1.1));
-    stroke(this.path(shown.now, shown, shown.peaks), colour[shown.colour], 1.9);
+    const [now, before, ...kept] = this.written();
+    if (before) stroke(before, colour.soft, 1.3, [4, 3]);
+    kept.forEach((path, k) => stroke(path!, colour[KEPT[k % KEPT.length]], 1.1));
+    stroke(now!, colour[shown.colour], 1.9);
     const { limit } = shown, bar = limit !== null && limit > low && limit < high;
     if (bar) stroke(new Path2D(`M${LEFT} ${this.v(limit)}H${end}`), colour.bad, 1.2, [3, 3]);
-    [pen.font, pen.textBaseline] = [`${FONT}px system-ui, sans-serif`, "middle"];
-    this.numbers(colour.soft, bar ? colour.bad : null);
-    pen.textBaseline = "alphabetic";
-    pen.fillStyle = colour.soft;
-    this.write(shown.ticks, tall - 5);
+    this.write(this.numbers(colour.soft, bar ? colour.bad : null), colour.soft);
+  }
+
+  /** The paths of all curves: now, before, kept. What stays as it was is not found again. */
+  private written(): (Path2D | null)[] {
+    const { now, before, kept, peaks, x, turn } = this.shown!, places = [x, turn, ...this.scale, ...this.size];
+    const same = this.paths.places.length === places.length && places.every((each, k) => each === this.paths.places[k]);
+    const known = same ? this.paths.known : new Map<ArrayLike<number>, Path2D>(), next = new Map<ArrayLike<number>, Path2D>();
+    if (!same) this.us = this.shares.map((share) => this.u(share));
+    for (const values of [before, ...kept]) if (values) next.set(values, known.get(values) ?? this.path(values, []));
+    this.paths = { places, known: next };
+    return [this.path(now, peaks), before && next.get(before)!, ...kept.map((values) => next.get(values)!)];
   }
 
   /** Numbers at the scale: its ends, and zero and the limit where these leave room. */
-  private numbers(soft: string, bad: string | null): void {
-    const { pen, shown, scale: [low, high] } = this, taken: number[] = [];
-    pen.textAlign = "right";
+  private numbers(soft: string, bad: string | null): { text: string; v: number; style: string }[] {
+    const { shown, scale: [low, high] } = this, found: { text: string; v: number; style: string }[] = [];
     const one = (y: number, style: string) => {
       const v = this.v(y);
-      if (taken.some((each) => Math.abs(each - v) < APART)) return;
-      taken.push(v);
-      pen.fillStyle = style;
-      pen.fillText(digits(Math.abs(y) < 1e-9 * (high - low) ? 0 : y / shown!.factor, 3), LEFT - 6, v);
+      if (found.some((each) => Math.abs(each.v - v) < APART)) return;
+      found.push({ text: digits(Math.abs(y) < 1e-9 * (high - low) ? 0 : y / shown!.factor, 3), v, style });
     };
     one(high, soft);
     one(low, soft);
     if (bad) one(shown!.limit!, bad);
     if (low < 0 && high > 0) one(0, soft);
+    return found;
+  }
+
+  /** Writes what has changed beside the scale and below the axis: texts, and setting their font, take longer than all strokes. */
+  private write(numbers: { text: string; v: number; style: string }[], soft: string): void {
+    const { pen, shown, size: [wide, tall], texts } = this, side = numbers.map(({ text, v }) => `${text} ${v.toFixed(1)}`).join();
+    if (side !== texts.side) {
+      pen.clearRect(0, 0, LEFT - SIDE, tall);
+      [pen.font, pen.textBaseline, pen.textAlign] = [LETTERS, "middle", "right"];
+      for (const { text, v, style } of numbers) {
+        pen.fillStyle = style;
+        pen.fillText(text, LEFT - 6, v);
+      }
+    }
+    if (shown!.ticks !== texts.ticks) {
+      pen.clearRect(LEFT - SIDE, tall - FOOT, wide, FOOT);
+      [pen.font, pen.textBaseline, pen.textAlign, pen.fillStyle] = [LETTERS, "alphabetic", "left", soft];
+      this.writeTicks(shown!.ticks, tall - 5);
+    }
+    this.texts = { side, ticks: shown!.ticks };
   }
 
   /** Texts below the axis: the ends, and what leaves room between them. */
-  private write(ticks: Shown["ticks"], v: number): void {
+  private writeTicks(ticks: Shown["ticks"], v: number): void {
     const { pen } = this, taken: [number, number][] = [], written = new Set<number>(), last = ticks.length - 1;
     for (const k of [0, last, last >> 1, ...ticks.keys()]) {
       if (written.has(k) || !ticks[k]) continue;
@@ -168,25 +203,27 @@ export class Plot {
       const left = k === 0 ? u : k === last ? u - wide : u - wide / 2;
       if (taken.some(([a, b]) => left < b + 8 && left + wide > a - 8)) continue;
       taken.push([left, left + wide]);
-      pen.textAlign = "left";
       pen.fillText(text, left, v);
     }
   }
 
   /** Runs without gaps, each with as few corners as it takes. */
-  private path(values: ArrayLike<number>, shown: Shown, peaks: Extreme[]): Path2D {
-    const path = new Path2D(), { shares } = this, all: [number, number, number][] = [], last = shares.length - 1;
-    for (let i = 0; i <= last; i++) all.push([i, this.u(shares[i]), this.v(valueAt(values, i, shown.turn))]);
-    for (const { at, value } of peaks.filter((each) => each.at > 0 && each.at < last && !Number.isInteger(each.at)).sort((a, b) => a.at - b.at)) {
-      const i = Math.floor(at), share = shares[i] + (at - i) * (shares[i + 1] - shares[i]);
-      all.splice(all.findIndex(([k]) => k > at), 0, [at, this.u(share), this.v(value)]);
+  private path(values: ArrayLike<number>, peaks: Extreme[]): Path2D {
+    const { shares, us, shown } = this, { length } = us, between = peaks.filter(({ at }) => at > 0 && at < length - 1 && !Number.isInteger(at)).sort((a, b) => a.at - b.at);
+    const all = new Float64Array(length + between.length), vs = new Float64Array(all.length);
+    for (let i = 0, k = 0, next = 0; i < length; i++) {
+      [all[k], vs[k++]] = [us[i], this.v(valueAt(values, i, shown!.turn))];
+      for (; next < between.length && between[next].at < i + 1; next++) {
+        const { at, value } = between[next];
+        [all[k], vs[k++]] = [this.u(shares[i] + (at - i) * (shares[i + 1] - shares[i])), this.v(value)];
+      }
     }
-    const us = Float64Array.from(all, ([, u]) => u), vs = Float64Array.from(all, ([, , v]) => v);
+    const path = new Path2D();
     for (let begin = 0; begin < all.length; ) {
       while (begin < all.length && Number.isNaN(vs[begin])) begin++;
       let end = begin;
       while (end < all.length && !Number.isNaN(vs[end])) end++;
-      const way = us.subarray(begin, end), run = vs.subarray(begin, end);
+      const way = all.subarray(begin, end), run = vs.subarray(begin, end);
       for (const i of thinned(way, run, NEAR)) path[i ? "lineTo" : "moveTo"](way[i], run[i]);
       begin = end;
     }
