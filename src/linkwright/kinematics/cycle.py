@@ -68,7 +68,7 @@ def time_span(mechanism: Mechanism) -> tuple[float, float, bool]:
         problem = (
             _(
                 "the cycle of {name!r} has no natural end, as driver {driver!r} does not turn; write "
-                "cycle: {{from: …, to: …}} (the driver's coordinate) or cycle: {{duration: 2 s}}",
+                "cycle: rock, cycle: {{from: …, to: …}} (the driver's coordinate) or cycle: {{duration: 2 s}}",
                 code="motion.no_natural_end",
             )
             if first.law.constant_speed

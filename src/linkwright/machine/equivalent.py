@@ -206,7 +206,8 @@ def steady_rate(motion: Motion) -> float:
     if rate[0] == 0 or np.ptp(rate) > 1e-9 * abs(rate[0]):
         raise LinkwrightError(
             _(
-                "the driver of {name!r} does not turn at constant speed; give it speed: … instead of a law",
+                "the driver of {name!r} does not turn at constant speed; give it speed: … instead of a law, and no "
+                "cycle that rocks",
                 code="running.not_constant",
                 name=name,
             )
