@@ -64,6 +64,23 @@ export class Call {
   }
 }
 
+/** What a program has given: rows over positions, or their values at one. */
+export interface Outputs {
+  row(name: string): ArrayLike<number>;
+  has(name: string): boolean;
+}
+
+const places = new WeakMap<Program, Map<string, number>>();
+
+/** The outputs of a call for one position as they are now, whatever it runs later. */
+export function taken({ program, out, stride }: Call): Outputs {
+  const values = program.outputs.map((_, k) => out[k * stride]);
+  let known = places.get(program);
+  if (!known) places.set(program, (known = new Map(program.outputs.map((name, k) => [name, k]))));
+  const found = known;
+  return { row: (name) => [values[found.get(name)!]], has: (name) => found.has(name) };
+}
+
 interface Room {
   floats(count: number): Float64Array;
   caller(call: Call, inputs: Rows): () => void;

@@ -1,6 +1,7 @@
 // Shapes that follow from the motion, in metres and in the axes of the link that carries them: cams by the contacts
 // of their followers, teeth that mesh, racks by the way of their pinions.
 import type { Amount, Glyph } from "./data";
+import type { Outputs } from "./engine";
 import type { Model } from "./model";
 import type { Values } from "./solver";
 
@@ -42,7 +43,7 @@ export class Shapes {
     return this.model.data.glyphs;
   }
 
-  private pair(name: string, i: number, missing: Vec, main = this.model.main): Vec {
+  private pair(name: string, i: number, missing: Vec, main: Outputs = this.model.main): Vec {
     return main.has(`${name}.x`) ? [main.row(`${name}.x`)[i], main.row(`${name}.y`)[i]] : missing;
   }
 
@@ -162,7 +163,7 @@ export class Shapes {
   }
 
   /** Direction of a flat face: across its guide, or along its arm. */
-  line(glyph: Glyph, i: number, call = this.model.main): Vec {
+  line(glyph: Glyph, i: number, call: Outputs = this.model.main): Vec {
     if (glyph.joint) {
       const [x, y] = this.pair(`d:${glyph.joint}`, i, [1, 0], call);
       return [-y, x];

@@ -1,6 +1,6 @@
 // One machine solved at all its positions by its programs, and what is in the way where it cannot be.
 import { bytes, floats, type Group, type ModelData } from "./data";
-import { type Call, type Code, Kernel, moduleCode } from "./engine";
+import { type Call, type Code, Kernel, moduleCode, type Outputs, taken } from "./engine";
 import { Drive } from "./drive";
 import { corners, type Cycle } from "./events";
 import { settle } from "./friction";
@@ -351,10 +351,11 @@ export class Solver {
   }
 
   /** The machine with its loads at a place between the positions; null where it is not known there. */
-  whole(place: number): Call | null {
+  whole(place: number): Outputs | null {
     let found: Call | null = null;
     this.forceAt(place, (call) => ((found = call), 0));
-    return found && (found as Call).row("ok")[0] !== 0 ? found : this.closed(place);
+    const whole = found && (found as Call).row("ok")[0] !== 0 ? found : this.closed(place);
+    return whole && taken(whole);
   }
 
   /** The same without loads, where friction finds no effort. */

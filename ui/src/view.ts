@@ -1,6 +1,6 @@
 // The machine drawn in the standard symbols: elements made once, moved at every frame.
 import type { Glyph } from "./data";
-import type { Call } from "./engine";
+import type { Outputs } from "./engine";
 import type { Model } from "./model";
 import type { Values } from "./solver";
 import { Names } from "./names";
@@ -56,7 +56,7 @@ export class View {
   private ghostly: Ghost[] = [];
   private seen: { values: Values | null; scale: number; paths: string; shift: string } = { values: null, scale: 0, paths: "", shift: "" };
   /** What holds the machine at the place that is drawn, and where in its rows. */
-  private now: Call;
+  private now: Outputs;
   private k = 0;
   private readonly handles = new Map<string, SVGElement>();
   private readonly names: Names;

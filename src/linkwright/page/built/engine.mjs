@@ -46,12 +46,22 @@ var e = {
 			if (r) for (let e = 0; e < this.stride; e++) t[n][e] = r[Math.min(e, r.length - 1)];
 		}
 	}
-}, i = (e) => (t) => new WebAssembly.Instance(e, { env: t }).exports.kernel, a = class {
+}, i = /* @__PURE__ */ new WeakMap();
+function a({ program: e, out: t, stride: n }) {
+	let r = e.outputs.map((e, r) => t[r * n]), a = i.get(e);
+	a || i.set(e, a = new Map(e.outputs.map((e, t) => [e, t])));
+	let o = a;
+	return {
+		row: (e) => [r[o.get(e)]],
+		has: (e) => o.has(e)
+	};
+}
+var o = (e) => (t) => new WebAssembly.Instance(e, { env: t }).exports.kernel, s = class {
 	program;
 	room;
 	tables;
 	constructor(e, t, n = {}, r = 16) {
-		this.program = e, this.room = o(t, r), this.tables = e.tables.map((e) => {
+		this.program = e, this.room = c(t, r), this.tables = e.tables.map((e) => {
 			let t = this.room.floats(n[e].length);
 			return t.set(n[e]), t;
 		});
@@ -60,7 +70,7 @@ var e = {
 		return new r(this.program, e, this.room, this.tables);
 	}
 };
-function o(e, n) {
+function c(e, n) {
 	let r = new WebAssembly.Memory({ initial: n * 1048576 / 65536 }), i = { __linear_memory: r };
 	for (let e of [
 		"sin",
@@ -74,22 +84,22 @@ function o(e, n) {
 		"log",
 		"pow"
 	]) i[`linkwright_${e}`] = Math[e];
-	let a = e(i), o = 1024, c = (e) => {
+	let a = e(i), o = 1024, s = (e) => {
 		let t = 8 * Math.max(e, 1) + 63 & -64;
 		if (o + t > r.buffer.byteLength) throw RangeError("the page's memory is too small for this model");
 		return o += t, new Float64Array(r.buffer, o - t, e);
 	};
 	return {
-		floats: c,
+		floats: s,
 		caller: (e, n) => {
-			let i = new BigInt64Array(r.buffer, c(t + n.length).byteOffset, t + n.length);
-			s(i, e, n);
+			let i = new BigInt64Array(r.buffer, s(t + n.length).byteOffset, t + n.length);
+			l(i, e, n);
 			let o = i.byteOffset;
 			return () => a(o);
 		}
 	};
 }
-function s(r, i, a) {
+function l(r, i, a) {
 	let o = (e, t) => r[e] = BigInt(t), s = i.n, c = s % n, l = s - c;
 	o(e.designs, 1), o(e.length, i.stride), o(e.count, s), o(e.fullEnd, l);
 	let [u, d, f] = l ? c ? [
@@ -107,4 +117,4 @@ function s(r, i, a) {
 	];
 	o(e.tailStart, u), o(e.tailLow, d), o(e.tailHigh, f), o(e.parameters, i.parameters.byteOffset), o(e.out, i.out.byteOffset), a.forEach((e, n) => o(t + n, e.byteOffset));
 }
-export { r as Call, a as Kernel, i as moduleCode };
+export { r as Call, s as Kernel, o as moduleCode, a as taken };

@@ -1,6 +1,6 @@
 // Loads where they stand on the sheet: directions in space, lengths of arrows by size, what is under the pointer.
 import { distance, type Load } from "../../drawn_loads";
-import type { Call } from "../../engine";
+import type { Outputs } from "../../engine";
 import type { Guide, Picture } from "../../picture";
 import type { Session } from "../../session";
 import type { Vec } from "../../shapes";
@@ -32,18 +32,15 @@ const NOTHING = 1e-12;
 /** The machine or drawing as it stands on the sheet, with directions of its links. */
 export class Stand {
   readonly picture: Partial<Picture>;
-  private readonly call: Call | null = null;
+  private readonly call: Outputs | null = null;
   private readonly k: number = 0;
-  /** Between positions: what the machine is there, for the call that has found it is used again. */
-  private readonly between: Map<string, number> | null = null;
 
   /** `place`: among the positions of the machine, between them as well. */
   constructor(readonly scene: Scene, picture: Picture | undefined, readonly session: Session | null, place: number) {
     this.picture = picture ?? {};
     if (!session) return;
     const { main, solver, n } = session.model, found = Number.isInteger(place) ? null : solver.whole(place);
-    [this.call, this.k] = [main, Math.round(place) % n];
-    if (found) this.between = new Map(found.program.outputs.map((name) => [name, found.row(name)[0]]));
+    [this.call, this.k] = found ? [found, 0] : [main, Math.round(place) % n];
   }
 
   get loads(): Record<string, Load> {
@@ -51,7 +48,6 @@ export class Stand {
   }
 
   row(name: string): number | null {
-    if (this.between) return this.between.get(name) ?? null;
     return this.call?.has(name) ? this.call.row(name)[this.k] : null;
   }
 
