@@ -80,6 +80,7 @@ FILES: dict[str, Message] = {
     "open.no_files": _("There are no model files in this folder yet."),
     "open.no_gallery": _("The gallery is empty."),
     "draft.links": _("{count} links, not saved"),
+    "draft.none": _("no links yet, not saved"),
     "draft.one": _("1 link, not saved"),
     "draft.changed": _("changed after saving"),
     "draft.discard": _("Delete the draft of {name}"),

@@ -2,6 +2,7 @@
 import { type Bench, TOOLS } from "../bench";
 import { KEYS } from "../tools/tool";
 import { DialogFrame } from "./dialog";
+import { keyNames } from "./key_names";
 import { nameOf } from "./rail";
 
 /** Keys and the words that say what they do, by parts. */
@@ -18,7 +19,7 @@ const PARTS: [part: string, rows: [keys: string, words: string][]][] = [
 ];
 
 export function KeySheet({ bench }: { bench: Bench }) {
-  const row = (keys: string, words: string) => <div key={keys + words}><dt>{keys.split(" ").map((each) => <kbd key={each}>{each === "Space" ? bench.say("key.space") : each}</kbd>)}</dt><dd>{words}</dd></div>;
+  const row = (keys: string, words: string) => <div key={keys + words}><dt>{keys.split(" ").map((each) => <kbd key={each}>{each === "Space" ? bench.say("key.space") : keyNames(each)}</kbd>)}</dt><dd>{words}</dd></div>;
   return (
     <DialogFrame bench={bench} title={bench.say("keys.title")} class="keys">
       <div class="key-parts">

@@ -3,6 +3,7 @@ import { signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useLayoutEffect, useRef } from "preact/hooks";
 import { Icon } from "./icons";
+import { keyNames } from "./key_names";
 import type { IconName } from "./signs";
 
 export interface Choice {
@@ -112,7 +113,7 @@ export function MenuHost() {
         >
           <span class="menu-sign">{choice.icon ? <Icon name={choice.icon} size={18} /> : choice.checked ? <Icon name="check" size={16} /> : null}</span>
           <span class="menu-text">{choice.label}</span>
-          {choice.keys && <span class="menu-keys">{choice.keys}</span>}
+          {choice.keys && <span class="menu-keys">{keyNames(choice.keys)}</span>}
         </button>
       ))}
     </div></nav>

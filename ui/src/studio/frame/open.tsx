@@ -19,7 +19,7 @@ export const draftTitle = ({ name, saved }: Folder["drafts"][number]) => (saved 
 
 /** What a draft is: "5 links, not saved". */
 export function draftNote(bench: Bench, { links, saved }: Folder["drafts"][number]): string {
-  return bench.say(saved ? "draft.changed" : links === 1 ? "draft.one" : "draft.links", { count: String(links) });
+  return bench.say(saved ? "draft.changed" : links === 0 ? "draft.none" : links === 1 ? "draft.one" : "draft.links", { count: String(links) });
 }
 
 /** The folder as the server has it; asked anew for each `again`. */

@@ -4,6 +4,7 @@ import type { Bench } from "../bench";
 import { allCommands, type Command } from "./commands";
 import { DialogFrame } from "./dialog";
 import { Icon } from "./icons";
+import { keyNames } from "./key_names";
 import { useFolder } from "./open";
 import { ranked } from "./search";
 
@@ -46,7 +47,7 @@ export function Palette({ bench }: { bench: Bench }) {
             <span class="menu-sign">{each.icon && <Icon name={each.icon} size={18} />}</span>
             <span class="menu-text">{each.label}</span>
             <small>{bench.say(`group.${each.group}`)}</small>
-            {each.keys && <kbd>{each.keys}</kbd>}
+            {each.keys && <kbd>{keyNames(each.keys)}</kbd>}
           </li>
         ))}
       </ul>

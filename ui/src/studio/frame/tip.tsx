@@ -1,5 +1,6 @@
 // The name of what the pointer or the keyboard is on: elements with `data-tip` and, where keys take them, `data-keys`.
 import { useEffect, useRef } from "preact/hooks";
+import { keyNames } from "./key_names";
 
 /** How long the pointer rests first, ms; none while it goes on along a row. */
 const REST = 450;
@@ -17,7 +18,7 @@ export function Tip() {
     };
     const show = (at: HTMLElement) => {
       box.textContent = at.dataset.tip ?? "";
-      if (at.dataset.keys) box.appendChild(document.createElement("kbd")).textContent = at.dataset.keys;
+      if (at.dataset.keys) box.appendChild(document.createElement("kbd")).textContent = keyNames(at.dataset.keys);
       box.hidden = false;
       const around = at.getBoundingClientRect(), beside = at.closest("[aria-orientation=vertical]");
       const low = around.bottom + GAP + box.offsetHeight < innerHeight - EDGE;

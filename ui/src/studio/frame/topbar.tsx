@@ -4,6 +4,7 @@ import type { Bench } from "../bench";
 import { exportCommands, fileCommands } from "./commands";
 import { Square } from "./controls";
 import { Icon } from "./icons";
+import { keyNames } from "./key_names";
 import { type Choices, MenuButton } from "./menu";
 import { share } from "./sharing";
 import type { IconName } from "./signs";
@@ -52,7 +53,7 @@ function File({ bench }: { bench: Bench }) {
 function Find({ bench }: { bench: Bench }) {
   return (
     <button class="command" aria-keyshortcuts="Control+K" onClick={() => (bench.dialog.value = { kind: "palette" })}>
-      <Icon name="search" size={16} /><span>{bench.say("palette")}</span><kbd aria-hidden="true">Ctrl K</kbd>
+      <Icon name="search" size={16} /><span>{bench.say("palette")}</span><kbd aria-hidden="true">{keyNames("Ctrl K")}</kbd>
     </button>
   );
 }
