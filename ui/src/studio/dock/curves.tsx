@@ -91,8 +91,9 @@ function Figure({ bench, session, quantity, words, ids }: { bench: Bench; sessio
     <figure class="plot" data-curve={quantity.id}>
       <figcaption>
         <button ref={button} class="pick" aria-label={bench.say("dock.change_curve", { name })} data-tip={name} aria-haspopup="dialog" aria-expanded={picking} onClick={() => pick(!picking)}>
-          <b>{whatOf(quantity, words)}</b><span>{of && <Name text={of} />}{part && ` ${part}`}</span><Icon name="chevron" size={14} />
+          <b>{whatOf(quantity, words)}</b><Icon name="chevron" size={14} />
         </button>
+        <span class="of">{of && <Name text={of} />}{part && ` ${part}`}</span>
         <output ref={value} />
         <button class="away" aria-label={bench.page.say("forget", { name })} onClick={() => remember(bench, { ids: ids.filter((each) => each !== quantity.id) })}><Icon name="close" size={14} /></button>
       </figcaption>
