@@ -10,6 +10,7 @@ import type { Gap } from "../outline";
 import { MAKE } from "../tools";
 import type { Overlay, Sheet, Spot, Tool } from "../tools/tool";
 import { Camera, FULL } from "./camera";
+import { type Change, compare, without } from "./changes";
 import { drawnPhase, isDrawn } from "./drawn";
 import { around, boxOf, comeApart } from "./gap";
 import { heading } from "./geometry";
@@ -445,30 +446,4 @@ export class Board implements Sheet {
   speak(item: Item): void {
     this.said.value = spoken(this.bench, this.scene, item);
   }
-}
-
-/** How a picture differs from another one: not at all, by what has been added, by its places alone, or otherwise. */
-type Change = "same" | "more" | "moved" | "other";
-
-function compare(old: Picture, now: Picture): Change {
-  if (!grown(old, now)) return "other";
-  const more = !grown(now, old), near = ([a, b]: Vec, [c, d]: Vec) => Math.hypot(a - c, b - d) < 1e-6;
-  const stays = Object.entries(old.points).every(([name, at]) => near(at, now.points[name]));
-  return stays ? (more ? "more" : "same") : more ? "other" : "moved";
-}
-
-/** Whether a picture has all that another one had, wherever that is. */
-function grown(old: Picture, now: Picture): boolean {
-  return (
-    Object.keys(old.points).every((name) => name in now.points) &&
-    old.fixed.every((name) => now.fixed.includes(name)) && old.guided.every((name) => now.guided.includes(name)) &&
-    Object.entries(old.links).every(([name, points]) => now.links[name]?.join() === points.join()) &&
-    Object.keys(old.loads).every((name) => name in now.loads)
-  );
-}
-
-/** A picture without some of its links, and the points that only these have. */
-function without(picture: Picture, loose: string[], bare: string[]): Picture {
-  const links = Object.fromEntries(Object.entries(picture.links).filter(([name]) => !loose.includes(name))), left = new Set([...Object.values(links).flat(), ...picture.fixed]);
-  return { ...picture, links, points: Object.fromEntries(Object.entries(picture.points).filter(([name]) => left.has(name) && !bare.includes(name))) };
 }
