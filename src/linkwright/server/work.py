@@ -228,7 +228,8 @@ def solved(text: str, language: str, folder: str = "") -> Plain:
             told = motion is not None or gap is not None
             found["gap"] = gap and gap_data(gap, mechanism, language)
             if motion is None:
-                raise error or LinkwrightError("")
+                assert error is not None
+                raise error
             found["picture"] = completed(found["picture"], motion)
             found["model"] = page_data([(motion, part.document if part else text)], language)["models"][0]
     except LinkwrightError as error:
