@@ -19,10 +19,10 @@ NO_PORT = _("port {port} cannot be used: {reason}; choose another one, or none f
     _("draw, change and solve a machine in the browser, next to its file"),
     _(
         """\
-Opens the studio in the browser: the machine as on a living page, the text of its file next to it, both
-in sync, findings at their lines, and tools that draw a mechanism from nothing. The server answers
-this machine only and reads and writes model files below the folder it is started in. Every change is
-saved at once; what was not saved is there again after a crash."""
+Opens the studio in the browser: a sheet on which a mechanism is drawn, loaded, moved and designed, with
+its curves and numbers next to it; the text of its file follows, with comments and order as they were.
+The server answers this machine only and reads and writes model files below the folder it is started
+in. Every change is saved at once; what was not saved is there again after a crash."""
     ),
     _(
         """\
