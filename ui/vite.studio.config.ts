@@ -7,7 +7,7 @@ export default defineConfig({
     cssCodeSplit: false,
     modulePreload: false,
     rollupOptions: {
-      input: "src/studio.tsx",
+      input: "src/studio/studio.tsx",
       output: { format: "iife", entryFileNames: "studio.js", assetFileNames: "studio.[ext]" },
     },
   },

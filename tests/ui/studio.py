@@ -120,7 +120,7 @@ def asked(studio: Studio, name: str, body: Any, **headers: str) -> tuple[int, An
 
 def edited(studio: Studio, text: str, action: dict[str, Any]) -> str:
     """The text after an action of drawing that it admits."""
-    status, found = asked(studio, "edit", {"text": text, "action": action})
+    status, found = asked(studio, "edit", {"text": text, "actions": [action]})
     assert status == 200, found
     return str(found["text"])
 

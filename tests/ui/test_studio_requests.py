@@ -193,16 +193,16 @@ def test_actions_with_wrong_values_are_refused_or_leave_a_text_that_can_be_drawn
     rng = random.Random(35)
     with serving(tmp_path) as studio:
         for action in (*ACTIONS, *(spoiled(rng) for _ in range(150))):
-            status, found = asked(studio, "edit", {"text": TEXT, "action": action, "language": "zh"})
+            status, found = asked(studio, "edit", {"text": TEXT, "actions": [action], "language": "zh"})
             assert status in (200, 400, 422), (action, found)
             if status == 200:
                 assert "\0" not in found["text"]
-                again = asked(studio, "edit", {"text": found["text"], "action": ACTIONS[0]})
+                again = asked(studio, "edit", {"text": found["text"], "actions": [ACTIONS[0]]})
                 assert again[0] == 200, (action, again)
             else:
                 assert len(found["error"]) > 5
         good = {"name": "a.yaml", "text": "format: 1\n", "window": "w", "serial": 0, "version": "", "draft": ""}
-        keys = (*good, "values", "points", "ending", "gallery", "action")
+        keys = (*good, "values", "points", "ending", "gallery", "actions")
         asks = [(name, key, value) for name in REQUESTS for key in keys for value in WRONG]
         for name, key, value in rng.sample(asks, 400):
             status, found = asked(studio, name, {**good, key: value})
@@ -213,7 +213,7 @@ def test_actions_with_wrong_values_are_refused_or_leave_a_text_that_can_be_drawn
 def test_refusals_are_in_the_language_of_the_request(tmp_path: Path) -> None:
     with serving(tmp_path) as studio:
         action = {"do": "mass", "link": 3}
-        said = [asked(studio, "edit", {"text": TEXT, "action": action, "language": each}) for each in ("en", "zh")]
+        said = [asked(studio, "edit", {"text": TEXT, "actions": [action], "language": each}) for each in ("en", "zh")]
         assert [status for status, _ in said] == [400, 400]
         english, chinese = (found["error"] for _, found in said)
         assert english != chinese and not chinese.isascii()

@@ -1,7 +1,7 @@
 // How drawings differ: what a sheet goes on showing while a text is solved depends on it.
 import assert from "node:assert/strict";
 import test from "node:test";
-import type { Picture } from "../src/picture";
+import type { Picture } from "../src/studio/picture";
 import { compare, without } from "../src/studio/sheet/changes";
 
 const OLD: Picture = { points: { O: [0, 0], A: [1, 0], B: [2, 0] }, fixed: ["O"], links: { crank: ["O", "A"], bar: ["A", "B"] }, driver: null, guided: [], loads: {} };

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import type { Picture } from "../src/picture";
+import type { Picture } from "../src/studio/picture";
 import type { Session } from "../src/session";
 import type { Vec } from "../src/shapes";
 import type { Gap } from "../src/studio/outline";

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import type { Action, Picture } from "../src/picture";
+import type { Action, Picture } from "../src/studio/picture";
 import type { Vec } from "../src/shapes";
 import type { Item } from "../src/studio/bench";
 import { Camera } from "../src/studio/sheet/camera";

@@ -1,7 +1,7 @@
 // The sheet without a browser: camera, grid, what a place snaps to, what is under a place.
 import assert from "node:assert/strict";
 import test from "node:test";
-import type { Picture } from "../src/picture";
+import type { Picture } from "../src/studio/picture";
 import type { Vec } from "../src/shapes";
 import { Camera, FULL } from "../src/studio/sheet/camera";
 import { inside, nearestOn } from "../src/studio/sheet/geometry";

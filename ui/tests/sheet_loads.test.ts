@@ -1,7 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import type { Load } from "../src/drawn_loads";
-import type { Picture } from "../src/picture";
+import type { Load, Picture } from "../src/studio/picture";
 import type { Vec } from "../src/shapes";
 import { wedge } from "../src/studio/sheet/analysis";
 import { scaled } from "../src/studio/sheet/backdrop";

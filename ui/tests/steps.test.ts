@@ -1,7 +1,7 @@
 // Steps of texts that outlive a page: packed as changes, unpacked as they were, within their room.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { keepSteps, pack, recallSteps, unpack } from "../src/steps";
+import { keepSteps, pack, recallSteps, unpack } from "../src/studio/steps";
 
 class Store implements Storage {
   readonly all = new Map<string, string>();

@@ -39,11 +39,7 @@ _POLICY = (
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; connect-src 'self'; "
     "img-src 'self' data: blob:; frame-ancestors 'none'; base-uri 'none'; form-action 'none'"
 )
-_BUILT = {
-    f"/{name}.{ending}": kind
-    for name in ("studio", "workbench")
-    for ending, kind in (("js", "text/javascript"), ("css", "text/css"))
-}
+_BUILT = {"/studio.js": "text/javascript", "/studio.css": "text/css"}
 _BAD_REQUEST = _(
     "the server does not understand this request; open the studio at the address that the terminal shows"
 )
@@ -96,8 +92,7 @@ class _Handler(BaseHTTPRequestHandler):
             return
         try:
             address = urlsplit(self.path)
-            query = parse_qs(address.query)
-            token = query.get("token", [""])[0]
+            token = parse_qs(address.query).get("token", [""])[0]
         except ValueError:
             self._refuse(400, _BAD_REQUEST)
             return
@@ -109,7 +104,7 @@ class _Handler(BaseHTTPRequestHandler):
         elif address.path != "/":
             self._refuse(404, _NO_PAGE)
         elif self.server.allows(token):
-            self._send(200, self._page("workbench" if "bench" in query else "studio"), "text/html")
+            self._send(200, self._page(), "text/html")
         else:
             self._refuse(403, _NO_SECRET)
 
@@ -179,7 +174,7 @@ class _Handler(BaseHTTPRequestHandler):
         self._end(403, _("this server answers only its own page on this machine"))
         return False
 
-    def _page(self, name: str) -> bytes:
+    def _page(self) -> bytes:
         words = {
             each: {key: text.translate(each) for key, text in (TEXTS | PAGE_TEXTS).items()} for each in LANGUAGES
         }
@@ -195,9 +190,9 @@ class _Handler(BaseHTTPRequestHandler):
             '<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
             '<meta name="viewport" content="width=device-width, initial-scale=1, '
             'interactive-widget=resizes-content">\n<title>Linkwright</title>\n'
-            f'<link rel="stylesheet" href="/{name}.css">\n</head>\n<body>\n<div id="page"></div>\n'
+            '<link rel="stylesheet" href="/studio.css">\n</head>\n<body>\n<div id="page"></div>\n'
             f'<script type="application/json" id="data">{content}</script>\n'
-            f'<script src="/{name}.js"></script>\n</body>\n</html>\n'
+            '<script src="/studio.js"></script>\n</body>\n</html>\n'
         ).encode()
 
     def _send(self, status: int, body: bytes, kind: str) -> None:

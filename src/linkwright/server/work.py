@@ -93,8 +93,7 @@ class Work:
 
     def _edit(self, asked: Plain) -> Plain:
         """The text after actions of drawing, one step: what the user should know, new names, what can be drawn."""
-        actions = [mapping(asked, "action")] if "action" in asked else mappings(asked, "actions")
-        done = edited(text(asked, "text"), actions)
+        done = edited(text(asked, "text"), mappings(asked, "actions"))
         return {**done._asdict(), "notes": [in_language(each, language_of(asked)) for each in done.notes]}
 
     def _read(self, asked: Plain) -> str:

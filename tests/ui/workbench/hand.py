@@ -212,7 +212,7 @@ def hand(
             viewport=size or DESK, has_touch=touch, reduced_motion="reduce", bypass_csp=bypass_csp
         )
         found = Hand(context.new_page())
-        found.tab.goto(f"{studio.url}&bench=1")
+        found.tab.goto(f"{studio.url}")
         found.tab.wait_for_function("() => globalThis.bench?.sheet.value && desk.solved.value.text !== undefined")
         found.settle()
         yield found

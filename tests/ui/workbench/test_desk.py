@@ -167,7 +167,7 @@ def test_a_stroke_before_the_file_is_open_is_drawn_into_the_file(chromium: Any, 
             held.append(route)
 
         of.tab.route("**/api/open", hold)
-        of.tab.goto(f"{studio.url}&bench=1")
+        of.tab.goto(f"{studio.url}")
         of.tab.wait_for_function("() => globalThis.bench?.sheet.value")
         of.take("pivot")
         of.click((0.0, 0.0))
@@ -297,7 +297,7 @@ def test_twenty_links_and_a_server_that_is_killed_and_comes_back(
     written(tmp_path, "twenty.yaml", twenty_links())
     of = Hand(chromium.new_page(viewport=DESK))
     with started(tmp_path) as address:
-        of.tab.goto(f"{address}&bench=1")
+        of.tab.goto(f"{address}")
         of.tab.wait_for_function("() => globalThis.bench?.session.value")
         of.settle()
         before = of.text
@@ -325,7 +325,7 @@ def test_two_windows_notice_each_other_and_a_reload_keeps_file_and_language(chro
     with serving(tmp_path, "a.yaml") as studio:
         first, second = (Hand(chromium.new_page(viewport=DESK)) for _ in range(2))
         for each in (first, second):
-            each.tab.goto(f"{studio.url}&bench=1")
+            each.tab.goto(f"{studio.url}")
             each.tab.wait_for_function("() => globalThis.bench?.session.value")
             each.settle()
             change(first, text + "# shorter\n")

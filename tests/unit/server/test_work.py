@@ -52,7 +52,7 @@ def test_faults_of_the_program_are_said_and_the_server_goes_on(
     monkeypatch.setattr(work, "edited", failing)
     monkeypatch.setattr(search, "linkages", lambda *_: failing)
     with serving(tmp_path) as studio:
-        status, found = asked(studio, "edit", {"text": "", "action": {}, "language": "zh"})
+        status, found = asked(studio, "edit", {"text": "", "actions": [{}], "language": "zh"})
         assert status == 500
         assert "ZeroDivisionError" in found["error"] and "by nought" in found["error"]
         number = asked(studio, "curve", {"points": [], "closed": True})[1]["number"]

@@ -1,6 +1,6 @@
 // The workbench: what is selected, in hand and shown, beside the document (Desk) and the machine that it makes (Session).
 import { computed, effect, signal } from "@preact/signals";
-import type { Desk, Renamed } from "../desk";
+import type { Desk, Renamed } from "./desk";
 import type { Session } from "../session";
 import type { Vec } from "../shapes";
 import type { Gap } from "./outline";

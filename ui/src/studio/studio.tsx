@@ -2,7 +2,7 @@
 import { render } from "preact";
 import { useLayoutEffect, useState } from "preact/hooks";
 import type { PageData } from "../data";
-import { Desk } from "../desk";
+import { Desk } from "./desk";
 import { Page } from "../living";
 import "../machine.css";
 import { Bench } from "./bench";

@@ -40,7 +40,6 @@ FOOT: dict[str, Message] = {
     "snap.help": _("Snap to joints, links, directions and the grid; hold Alt to pass over"),
     "grid.spacing": _("Spacing of the grid"),
     "grid.now": pgettext("foot", "Grid {value}"),
-    "grid.auto": _("by zoom"),
     "grid.by_zoom": _("By the zoom"),
     "grid.hide": _("Hide the grid"),
     "grid.show": _("Show the grid"),

@@ -2,7 +2,7 @@
 import { signal } from "@preact/signals";
 import { useEffect, useState } from "preact/hooks";
 import { rows as metricRows } from "../../compare";
-import type { Folder, Solved } from "../../desk";
+import type { Folder, Solved } from "../desk";
 import { Session } from "../../session";
 import { code, type Values } from "../../solver";
 import { digits, quantity } from "../../words";

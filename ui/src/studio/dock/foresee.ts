@@ -1,5 +1,5 @@
 // What is looked at but not taken yet, drawn over the sheet: a candidate's linkage with its curve.
-import type { Drawing } from "../../desk";
+import type { Drawing } from "../desk";
 import { hull, line } from "../../strokes";
 import type { Vec } from "../../shapes";
 import type { Bench } from "../bench";

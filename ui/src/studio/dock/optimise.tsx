@@ -1,6 +1,6 @@
 // Optimisation: what varies within which range, what is made least or most, what must hold; the designs as they are found.
 import { useEffect, useState } from "preact/hooks";
-import type { Better } from "../../desk";
+import type { Better } from "../desk";
 import type { Session } from "../../session";
 import type { Bench } from "../bench";
 import { Icon } from "../frame/icons";

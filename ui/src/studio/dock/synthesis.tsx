@@ -1,7 +1,7 @@
 // Synthesis by hand: a task with its demands at the left, the linkages that meet them as small pictures.
 import { signal } from "@preact/signals";
 import { useEffect, useState } from "preact/hooks";
-import type { Candidate, Design } from "../../desk";
+import type { Candidate, Design } from "../desk";
 import type { Vec } from "../../shapes";
 import { digits, quantity } from "../../words";
 import type { Bench } from "../bench";

@@ -1,5 +1,5 @@
 // A linkage as a small picture: bars, plates, pins, ground and guides, its curve over the one that was asked for.
-import type { Drawing } from "../../desk";
+import type { Drawing } from "../desk";
 import { hull, line, tenth } from "../../strokes";
 import type { Vec } from "../../shapes";
 

@@ -2,7 +2,7 @@
 import { effect } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
-import type { Action } from "../../picture";
+import type { Action } from "../picture";
 import type { Session } from "../../session";
 import { put } from "../../strokes";
 import { digits, quantity } from "../../words";

@@ -1,6 +1,6 @@
 // The dialog that opens drawings: what was not saved with its times, files of the folder, machines of the gallery.
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
-import type { Folder } from "../../desk";
+import type { Folder } from "../desk";
 import type { Bench } from "../bench";
 import { Square } from "./controls";
 import { DialogFrame } from "./dialog";

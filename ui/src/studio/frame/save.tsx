@@ -1,6 +1,6 @@
 // The dialogs that save under a name, and that open a shared link.
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
-import { named } from "../../desk";
+import { named } from "../desk";
 import { modelOf } from "../../share";
 import type { Bench } from "../bench";
 import { DialogFrame } from "./dialog";

@@ -1,5 +1,5 @@
 // Changes of the text by the inspector: each is one step that can be undone, or is refused with the server's sentence.
-import type { Action } from "../../picture";
+import type { Action } from "../picture";
 import type { Bench } from "../bench";
 import type { Entry } from "../outline";
 import type { Path } from "./entries";

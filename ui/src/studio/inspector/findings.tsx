@@ -1,5 +1,5 @@
 // What is to be mended: each finding with its sentence, its element on the sheet, remedies, and its line.
-import type { Found } from "../../desk";
+import type { Found } from "../desk";
 import type { Bench, Item } from "../bench";
 import type { Gap, Remedy } from "../outline";
 import { Icon } from "../frame/icons";

@@ -1,5 +1,5 @@
 // Several elements at once: their count, what they have in common, align, mirror, weld.
-import type { Action } from "../../picture";
+import type { Action } from "../picture";
 import type { Vec } from "../../shapes";
 import type { Bench, Item } from "../bench";
 import type { Outline } from "../outline";

@@ -1,7 +1,7 @@
 // The model file as text: numbered lines with the marks of findings, the selected element lit, the same steps back.
 import { signal } from "@preact/signals";
 import { useLayoutEffect, useRef } from "preact/hooks";
-import { WAIT } from "../../desk";
+import { WAIT } from "../desk";
 import type { Bench } from "../bench";
 import { linesOf, pathOf } from "./entries";
 

@@ -1,5 +1,5 @@
 // How what can be drawn of a text differs from what could be drawn of another one.
-import type { Picture } from "../../picture";
+import type { Picture } from "../picture";
 import type { Vec } from "../../shapes";
 
 /** How a picture differs from another one: not at all, by what has been added, by its places alone, or otherwise. */

@@ -1,5 +1,5 @@
 // A gap on the sheet: the ends that do not meet, how far the links to them reach, where the driven link can go.
-import type { Picture } from "../../picture";
+import type { Picture } from "../picture";
 import type { Vec } from "../../shapes";
 import { line, tenth } from "../../strokes";
 import type { Entry, Gap, Remedy } from "../outline";

@@ -1,10 +1,10 @@
 // Loads where they stand on the sheet: directions in space, lengths of arrows by size, what is under the pointer.
-import { distance, type Load } from "../../drawn_loads";
 import type { Outputs } from "../../engine";
-import type { Guide, Picture } from "../../picture";
+import type { Guide, Load, Picture } from "../picture";
 import type { Session } from "../../session";
 import type { Vec } from "../../shapes";
 import type { Camera } from "./camera";
+import { dist, nearestOn } from "./geometry";
 import type { Scene } from "./scene";
 
 /** A load as it is drawn, in pixels: an arrow from `from` to its head `to`, a line between two ends, or an arc about `from`. */
@@ -192,7 +192,7 @@ function pushing(name: string, load: Load, stand: Stand, camera: Camera, scale: 
 
 /** How far a place of the screen is from a load, px. */
 export function offLoad(at: Vec, { form, from, to }: DrawnLoad): number {
-  if (form !== "arc" && form !== "twist" && form !== "ring") return distance(at, from, to);
+  if (form !== "arc" && form !== "twist" && form !== "ring") return dist(at, nearestOn(at, from, to).at);
   return Math.abs(Math.hypot(at[0] - from[0], at[1] - from[1]) - ROUND);
 }
 

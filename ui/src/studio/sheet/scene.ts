@@ -1,7 +1,6 @@
 // What stands on the sheet at the position that is shown, whether the text makes a machine or not: places by the names
 // of the text, for hits, snaps and what is drawn over the machine.
-import type { Load } from "../../drawn_loads";
-import type { Picture } from "../../picture";
+import type { Load, Picture } from "../picture";
 import type { Session } from "../../session";
 import type { Vec } from "../../shapes";
 import type { Entry } from "../outline";

@@ -1,6 +1,6 @@
 // The sheet: the machine or the sketch of a text under a camera, with what tools, selection and snaps draw over it.
 import { effect, signal } from "@preact/signals";
-import type { Action, Picture } from "../../picture";
+import type { Action, Picture } from "../picture";
 import type { Session } from "../../session";
 import type { Vec } from "../../shapes";
 import { element } from "../../strokes";

@@ -1,6 +1,6 @@
 // What of a text can be drawn before it is a machine, in the same symbols: bars, plates, pivots, blocks in their guides.
 import { Names } from "../../names";
-import type { Picture } from "../../picture";
+import type { Picture } from "../picture";
 import type { Vec } from "../../shapes";
 import { element, hull, line } from "../../strokes";
 import type { Camera } from "./camera";

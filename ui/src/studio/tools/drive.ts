@@ -1,5 +1,5 @@
 // Drive: a click on a link turns it about its pivot, on a slider moves it along its guide, again removes the drive.
-import type { Action, Drive } from "../../picture";
+import type { Action, Drive } from "../picture";
 import { arcPath, type Stand } from "../sheet/loads";
 import { Clicks, pivotOf, TypedValues } from "./hand";
 import type { Field, MakeTool, Overlay, Sheet, Spot, Tool } from "./tool";

@@ -1,5 +1,5 @@
 // Where a load takes hold: a point of a link, or a new one on a link where none is.
-import type { Action } from "../../picture";
+import type { Action } from "../picture";
 import type { Vec } from "../../shapes";
 import type { Stand } from "../sheet/loads";
 import type { Scene } from "../sheet/scene";

@@ -1,5 +1,5 @@
 // The load that was set last: its numbers can still be typed until the next press.
-import type { Action } from "../../picture";
+import type { Action } from "../picture";
 import { TypedValues } from "./hand";
 import type { Field, Sheet } from "./tool";
 import { typed } from "./typed";

@@ -1,5 +1,5 @@
 // What a dimension measures, and how its value drives the drawing: lengths of links, sides of plates, distances, angles.
-import type { Action } from "../../picture";
+import type { Action } from "../picture";
 import type { Vec } from "../../shapes";
 import type { Item } from "../bench";
 import type { Entry } from "../outline";

@@ -1,5 +1,5 @@
 // Tools that take elements one after the other, and perhaps a value, then make something of them: slots, gears, cams and kin.
-import type { Action } from "../../picture";
+import type { Action } from "../picture";
 import type { Vec } from "../../shapes";
 import type { Item, ToolName } from "../bench";
 import { Clicks, linkAt, pivotOf, TypedValues } from "./hand";

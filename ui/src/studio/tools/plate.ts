@@ -1,5 +1,5 @@
 // Plate: click three or more joints; Enter or the first joint closes it. With a link selected a click adds a point to it.
-import type { Action } from "../../picture";
+import type { Action } from "../picture";
 import type { Vec } from "../../shapes";
 import { Clicks, current, distance, dropped, type End, endAt, freshPoint, heading, meeting, near, pointAt, polar, TypedValues } from "./hand";
 import { arc, inHand, joint, line, taken } from "./marks";

@@ -1,5 +1,5 @@
 // What every tool of the rail is: how it takes the pointer, typed values and keys, and what it draws over the sheet.
-import type { Action } from "../../picture";
+import type { Action } from "../picture";
 import type { Vec } from "../../shapes";
 import type { Bench, Item, ToolName } from "../bench";
 import type { Camera } from "../sheet/camera";

@@ -1,6 +1,4 @@
 // What of a text can be drawn before it is a machine, and what is done to it.
-import type { Load } from "./drawn_loads";
-
 export interface Picture {
   points: Record<string, [number, number]>;
   fixed: string[];
@@ -21,6 +19,33 @@ export interface Picture {
   unmet?: string[];
   /** Links whose motion nothing determines yet: the machine has not got them. */
   loose?: string[];
+}
+
+/** A load as the text has it; `angle`: direction in space, rad, null where it turns with the machine or has none. */
+export interface Load {
+  kind: string;
+  on: string;
+  at: string;
+  angle: number | null;
+  ends: string[];
+  size: string;
+  /** In what its direction stays: space, link, ray (two points of its link) or velocity. */
+  held?: string;
+  /** Direction in the axes of its link, rad. */
+  turn?: number | null;
+  ray?: string[];
+  /** Along the left normal of the ray. */
+  normal?: boolean;
+  /** Ends with their links: link and point. */
+  between?: [string, string][];
+  links?: string[];
+  joint?: string;
+  /** Size (SI), the largest of a ramp; null: no plain number. */
+  magnitude?: number | null;
+  stiffness?: number | null;
+  preload?: number | null;
+  /** Whether it acts all the time. */
+  always?: boolean;
 }
 
 /** A link's mass, kg (null: no plain number) and as it is written; its centre: a point, coordinates in the link's axes (m)
@@ -50,5 +75,4 @@ export interface Drive {
   rate: number | null;
 }
 
-export type Tool = "select" | "fixed" | "link" | "driver" | "guide" | "slot" | "gear" | "rack" | "cam" | "mass" | "load" | "curve" | "photo" | "remove";
 export type Action = Record<string, unknown> & { do: string };

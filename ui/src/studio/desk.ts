@@ -1,13 +1,13 @@
 // The open file of the studio: its text with all its steps, what is found in it, the machine that it makes.
 import { signal } from "@preact/signals";
-import { bytes, type ModelData } from "./data";
-import { History } from "./history";
-import { save, type Page } from "./living";
-import { code, type Values } from "./solver";
+import { bytes, type ModelData } from "../data";
+import { History } from "../history";
+import { save, type Page } from "../living";
+import { code, type Values } from "../solver";
 import type { Action, Picture } from "./picture";
-import { Session } from "./session";
+import { Session } from "../session";
 import { keepSteps, recallSteps } from "./steps";
-import type { Gap, Outline, Structure } from "./studio/outline";
+import type { Gap, Outline, Structure } from "./outline";
 
 export interface Found {
   severity: string;
@@ -128,10 +128,7 @@ export class Desk {
   readonly text = signal("");
   readonly name = signal("");
   readonly session = signal<Session | null>(null);
-  /** The machine that it is compared with. */
-  readonly beside = signal<Session | null>(null);
   readonly solved = signal<Solved>({ findings: [], model: null, sentence: "" });
-  readonly drawing = signal(true);
   readonly elsewhere = signal<string | null>(null);
   /** A file on the disk that is not the one that was opened, and so is not overwritten unasked. */
   readonly onDisk = signal<{ name: string; version: string } | null>(null);
@@ -320,7 +317,6 @@ export class Desk {
     this.clear();
     this.opens.value++;
     await this.solve();
-    this.drawing.value = this.session.value === null;
   }
 
   /** Writes the file, and says whether it is written; another one than the open one only where there is none, or in place of the given version. */
@@ -372,7 +368,7 @@ export class Desk {
   private clear(): void {
     this.session.value = null;
     this.solved.value = { findings: [], model: null, sentence: "" };
-    this.side();
+    this.page.sessions.splice(0, Infinity, ...(this.session.value ? [this.session.value] : []));
   }
 
   /** Asks what the text makes, once at a time: texts that came meanwhile are one question more. */
@@ -407,7 +403,7 @@ export class Desk {
     if (old) session.inherit(old);
     session.ended = () => void this.adopt(session);
     this.session.value = session;
-    this.side();
+    this.page.sessions.splice(0, Infinity, ...(this.session.value ? [this.session.value] : []));
   }
 
   /** Writes the dimensions of the machine into the text. */
@@ -457,20 +453,6 @@ export class Desk {
       this.change(set.text);
       return true;
     }
-  }
-
-  /** Puts another machine beside the open one; none takes it away. */
-  async compare(asked: { name?: string; gallery?: string } | null): Promise<void> {
-    const found = asked && (await this.ask<{ text: string }>("read", asked));
-    const solved = found && (await this.ask<Solved>("solve", { text: found.text, name: asked.name ?? "" }));
-    if (solved && !solved.model) this.page.note.value = solved.sentence || this.errors(solved);
-    this.beside.value = solved?.model ? new Session(solved.model, await code(solved.model), 1) : null;
-    this.side();
-  }
-
-  private side(): void {
-    this.page.sessions.length = 0;
-    for (const each of [this.session.value, this.beside.value]) if (each) this.page.sessions.push(each);
   }
 
   async enough(): Promise<void> {
@@ -525,15 +507,6 @@ export class Desk {
   private draw({ picture }: Edited): void {
     hold(picture, this.solved.value.picture);
     this.solved.value = { ...this.solved.value, picture };
-  }
-
-  /** Shows the machine in motion; where the text makes none, says why. */
-  async run(): Promise<void> {
-    await this.queue;
-    await this.solve();
-    const { model, sentence } = this.solved.value, reason = this.errors() || sentence;
-    if (model) this.drawing.value = false;
-    else if (!this.gone.value) this.page.note.value = this.say("cannot_run", { reason: reason || this.say("no_machine") });
   }
 
   /** What is wrong with the text, in a line. */
