@@ -26,6 +26,7 @@ from pathlib import Path
 from typing import Any
 
 from tests.ui.browser import Opened, browser
+from tests.ui.studio import address_in
 from tests.ui.workbench.hand import hand
 
 import linkwright as lw
@@ -257,7 +258,7 @@ def studio_opening(folder: Path) -> Iterator[float]:
                 env={**os.environ, **compiled, "PYTHONUNBUFFERED": "1"},
             ) as process:
                 assert process.stdout is not None
-                tab.goto(next(word for word in process.stdout.readline().split() if word.startswith("http")))
+                tab.goto(f"{address_in(process.stdout.readline())}&bench=1")
                 tab.wait_for_selector("svg.machine .lw-pins *", state="attached")
                 tab.evaluate("() => new Promise(requestAnimationFrame)")
                 taken = 1e3 * (time.perf_counter() - begin)
