@@ -17,6 +17,8 @@ T = TypeVar("T")
 FARTHEST, LARGEST, LONGEST = 1e6, 1e300, 200
 #: Most letters of a value.
 LONGEST_VALUE = 1000
+#: Units of length that a person may choose.
+UNITS = ("mm", "cm", "m", "in")
 
 
 _BAD_REQUEST = _("the request is not a mapping in JSON with finite numbers; reload the page", code="studio.bad_body")
@@ -53,6 +55,12 @@ def line(asked: Mapping[str, Any], key: str) -> str:
     """A text on one line, as a value of a file."""
     value = text(asked, key)
     return value if len(value) <= LONGEST_VALUE and value == one_line(value) else refuse(key, "text")
+
+
+def length_unit(asked: Mapping[str, Any]) -> str:
+    """The unit in which lengths are written; mm where the page does not say."""
+    value = text(asked, "unit", "mm")
+    return value if value in UNITS else refuse("unit", "text")
 
 
 def names(asked: Mapping[str, Any], key: str) -> list[str]:

@@ -19,10 +19,11 @@ from linkwright.designs.optimise.optimum import OptimizeError, Optimum, comparis
 from linkwright.designs.optimise.problem import problem
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.files.model_file import read_text
-from linkwright.files.write import Document, dump
+from linkwright.files.write import Document
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.server.background import Job
+from linkwright.server.rounding import SHARE, short_text
 from linkwright.server.synthesis import curve_data, linkage_drawing
 from linkwright.synthesis.result import Candidate, Synthesis
 from linkwright.words import _
@@ -37,8 +38,9 @@ _FEWEST, _MOST = 3, 4000
 _NO_CURVE = _("that is no curve to search for: draw one with at least three points", code="studio.no_curve")
 
 
-def linkages(points: Any, closed: bool) -> Callable[[Job], None]:
-    """The search for linkages whose coupler curve goes through ``points`` (m), pairs of numbers."""
+def linkages(points: Any, closed: bool, unit: str = "mm") -> Callable[[Job], None]:
+    """The search for linkages whose coupler curve goes through ``points`` (m), pairs of numbers;
+    ``unit``: of the lengths that they are written with."""
     try:
         curve = np.array(points, dtype=float)
     except (ValueError, TypeError, OverflowError):
@@ -47,17 +49,17 @@ def linkages(points: Any, closed: bool) -> Callable[[Job], None]:
         raise LinkwrightError(_NO_CURVE)
     if not np.isfinite(curve).all() or not np.ptp(curve, axis=0).max() > 0:
         raise LinkwrightError(_NO_CURVE)
-    return partial(_search, _even(curve, closed), closed)
+    return partial(_search, _even(curve, closed), closed, unit)
 
 
-def _search(curve: np.ndarray, closed: bool, job: Job) -> None:
+def _search(curve: np.ndarray, closed: bool, unit: str, job: Job) -> None:
     best: list[Plain] = []
     refused: LinkwrightError | None = None
     for result in _results(job, curve, closed):
         if isinstance(result, LinkwrightError):
             refused = result
             continue
-        shown = (_drawn_candidate(each, curve) for each in result)
+        shown = (_drawn_candidate(each, curve, unit) for each in result)
         best = _distinct(sorted([*best, *shown], key=lambda each: float(each["error"])))
         job.tell(best)
     if refused is not None and not best:
@@ -94,18 +96,20 @@ def _even(curve: np.ndarray, closed: bool) -> np.ndarray:
     return np.stack([np.interp(at, arc_length, line[:, k]) for k in range(2)], axis=1)
 
 
-def _drawn_candidate(candidate: Candidate, target: np.ndarray) -> Plain:
+def _drawn_candidate(candidate: Candidate, target: np.ndarray, unit: str) -> Plain:
     """A candidate as plain data; ``error``: the farthest that a point of the target is from its curve, m."""
     drawn = np.asarray(candidate.curve if candidate.curve is not None else [], dtype=complex).ravel()
     goal = target[:, 0] + 1j * target[:, 1]
     error = float(np.abs(goal[:, None] - drawn[None, :]).min(axis=1).max()) if len(drawn) else float("inf")
+    linkage = candidate.linkage
+    text = linkage.text(linkage.kind.replace("_", " "))
     return {
-        "text": dump(candidate.mechanism(candidate.linkage.kind.replace("_", " "))),
-        "kind": candidate.linkage.kind,
-        "links": len(candidate.linkage.links) + 1,
+        "text": short_text(linkage, text, SHARE * error if np.isfinite(error) else 0.0, unit=unit),
+        "kind": linkage.kind,
+        "links": len(linkage.links) + 1,
         "error": error,
         "transmission_angle": float(candidate.transmission_angle),
-        "drawing": linkage_drawing(candidate.linkage),
+        "drawing": linkage_drawing(linkage),
         "curve": curve_data(candidate),
     }
 

@@ -15,6 +15,7 @@ from linkwright.core.quantity import length_text
 from linkwright.errors import speaker
 from linkwright.server.background import Job
 from linkwright.server.request import refuse
+from linkwright.server.rounding import short_text, tolerance
 from linkwright.synthesis.catalogue import TASKS, Task
 from linkwright.synthesis.function_generation.generators import KINDS as GENERATORS
 from linkwright.synthesis.linkage import Linkage
@@ -59,8 +60,10 @@ def _demand(task: Task, key: str, language: str) -> Plain:
     }
 
 
-def designed(task: str, demands: Mapping[str, Any]) -> Callable[[Job], None]:
+def designed(task: str, demands: Mapping[str, Any], unit: str = "mm") -> Callable[[Job], None]:
     """The search for linkages of a task; its demands as in the section of a file, with units.
+
+    ``unit``: of the lengths that candidates are written with.
 
     Raises ModelError with all findings about the demands, BadRequest for hidden ones.
     """
@@ -69,10 +72,10 @@ def designed(task: str, demands: Mapping[str, Any]) -> Callable[[Job], None]:
     lines = [f"  {key}: {json.dumps(value, ensure_ascii=False)}" for key, value in demands.items()]
     head = ["synthesis:", f"  task: {json.dumps(task)}", "  unit: mm", "  angle_unit: deg"]
     name, read = asked_in("\n".join([*head, *lines]), "synthesis")
-    return partial(_design, name, read)
+    return partial(_design, name, read, unit)
 
 
-def _design(name: str, demands: Mapping[str, Any], job: Job) -> None:
+def _design(name: str, demands: Mapping[str, Any], unit: str, job: Job) -> None:
     task = TASKS[name]
 
     def alive(*done: float) -> None:
@@ -83,23 +86,28 @@ def _design(name: str, demands: Mapping[str, Any], job: Job) -> None:
         found = task.run(**demands, **more)
     except SynthesisError as error:
         if error.nearest is not None:
-            _tell(error.nearest, job)
+            _tell(error.nearest, unit, job)
         raise
-    _tell(found, job)
+    _tell(found, unit, job)
 
 
-def _tell(found: Synthesis, job: Job) -> None:
+def _tell(found: Synthesis, unit: str, job: Job) -> None:
     tell = speaker(job.language)
     notes = [*([counts_text(found, tell)] if found.counts else []), *(tell(each) for each in found.notes)]
-    shown = [candidate_data(found, index, job.language) for index in range(min(MOST, len(found)))]
+    shown = []
+    for index in range(min(MOST, len(found))):
+        job.alive()
+        shown.append(candidate_data(found, index, job.language, unit))
     job.tell(shown, notes=notes)
 
 
-def candidate_data(found: Synthesis, index: int, language: str) -> Plain:
+def candidate_data(found: Synthesis, index: int, language: str, unit: str = "mm") -> Plain:
     """A candidate as the page shows it: its file, its numbers in words, its drawing."""
     each, tell = found.candidates[index], speaker(language)
+    allowed, of_angles = tolerance(found, each)
+    text = found.model_text(index, language=language)
     return {
-        "text": found.model_text(index, language=language),
+        "text": short_text(each.linkage, text, allowed, of_angles=of_angles, unit=unit),
         "type": tell(TYPE_NAMES[each.grashof_type]),
         "error": _error(found, each),
         "defects": defects_text(each, tell) if each.defects else "",

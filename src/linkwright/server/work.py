@@ -25,7 +25,7 @@ from linkwright.server.loose import moving_part
 from linkwright.server.moved import gap_data, moved
 from linkwright.server.outline import outline
 from linkwright.server.picture import completed
-from linkwright.server.request import mapping, mappings, number, numbers, text
+from linkwright.server.request import length_unit, mapping, mappings, number, numbers, text
 from linkwright.server.sketching import sketched
 from linkwright.server.structure import structure_of
 from linkwright.server.unfinished import in_earnest, unfinished
@@ -138,7 +138,7 @@ class Work:
         """Begins the search for linkages through a curve that was drawn."""
         from linkwright.server.search import linkages
 
-        work = linkages(asked.get("points"), bool(asked.get("closed")))
+        work = linkages(asked.get("points"), bool(asked.get("closed")), length_unit(asked))
         return self.background.begin("curve", work, language_of(asked))
 
     def _optimize(self, asked: Plain) -> Plain:
@@ -157,7 +157,7 @@ class Work:
         """Begins the search for linkages that meet the demands of a task."""
         from linkwright.server.synthesis import designed
 
-        work = designed(text(asked, "task"), mapping(asked, "demands"))
+        work = designed(text(asked, "task"), mapping(asked, "demands"), length_unit(asked))
         return self.background.begin("synthesis", work, language_of(asked))
 
     def _goals(self, asked: Plain) -> Plain:

@@ -54,7 +54,7 @@ def test_no_word_is_cut(chromium: Any, tmp_path: Path, name: str) -> None:
                 found.tab.set_viewport_size({"width": wide, "height": high})
                 found.frame()
                 # The curves again, which the tabs before have covered.
-                found.tab.evaluate("() => { bench.dock.value = 'curves'; }")
+                found.tab.evaluate("() => { bench.dock.value = 'curves'; bench.drawer.value = 'half'; }")
                 found.frame()
                 assert found.tab.evaluate(CUT) == [], (language, wide)
                 assert cut(found) == [], (language, wide)

@@ -46,7 +46,7 @@ function OfTarget({ bench }: { bench: Bench }) {
     <div class="task">
       {!target && <p class="help">{before}<kbd>U</kbd>{after}</p>}
       <button class={target ? "quietly" : "solid"} onClick={() => (bench.tool.value = "target")}><Icon name="target" size={18} />{bench.say("dock.draw_target")}</button>
-      {target && <button class="solid" disabled={running} onClick={() => void bench.desk.search("curve", { points: target.points, closed: target.closed })}>{bench.say("dock.search_again")}</button>}
+      {target && <button class="solid" disabled={running} onClick={() => void bench.desk.search("curve", { points: target.points, closed: target.closed, unit: bench.settings.value.unit })}>{bench.say("dock.search_again")}</button>}
     </div>
   );
 }

@@ -25,7 +25,7 @@ export function TaskForm({ bench, task, given, give }: Props) {
       class="task" onSubmit={(event) => {
         event.preventDefault();
         setOnSheet("");
-        if (ready) void bench.desk.search("synthesis", { task: task.name, demands: written(task, given) });
+        if (ready) void bench.desk.search("synthesis", { task: task.name, demands: written(task, given), unit: bench.settings.value.unit });
       }}
     >
       <p class="help">{say(`dock.task_help.${task.name}`)}</p>

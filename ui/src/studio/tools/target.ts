@@ -82,7 +82,7 @@ class TargetTool implements Tool {
     bench.target.value = { points, closed };
     bench.select({ kind: "target", name: "target" });
     bench.dock.value = "synthesis";
-    void bench.desk.search("curve", { points, closed });
+    void bench.desk.search("curve", { points, closed, unit: bench.settings.value.unit });
     this.sheet.redraw();
   }
 
