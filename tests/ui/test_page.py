@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from tests import store
 from tests.every import every
-from tests.ui.agreement import handed_out_and_read, moved, rows_agree
+from tests.ui.agreement import handed_out_and_read, moved, numbers_agree, rows_agree
 from tests.ui.browser import Opened, needs_chromium
 from tests.ui.pages import STEPS, page, page_of
 from tests.ui.texts import FRICTION, GEARED, PER_POSITION, with_load
@@ -375,6 +375,30 @@ def test_the_model_goes_to_a_studio_in_a_link_with_its_changed_numbers(opened: O
     text = zlib.decompress(base64.urlsafe_b64decode(packed + "=" * (-len(packed) % 4)), -15).decode()
     assert "length: 0.9 m" in text
     assert opened.tab.locator(".said").inner_text() == opened.translate("page.studio_copied")
+
+
+def test_a_page_takes_the_link_of_a_studio_with_its_own_machine(opened: Opened) -> None:
+    """Its own text with another crank is that machine, in the language that is read; others are said to be none."""
+    text = store.text("crank_rocker")
+    changed = text.replace("length: 1 m}", "length: 0.87 m}")
+    opened.open(page("crank_rocker"), of_a_studio(changed))
+    opened.tab.wait_for_function("() => linkwright.sessions[0].model.differs")
+    assert opened.values()["crank.length"] == 0.87
+    assert numbers_agree(opened, lw.solve_motion(lw.loads(changed), steps=STEPS))
+    opened.turn_over()
+    for link, key in ((of_a_studio(text.replace("crank", "arm")), "other"), ("#model=AAAA", "broken")):
+        opened.tab.evaluate("link => { location.hash = link; }", link)
+        said = opened.translate(f"page.link_{key}")
+        opened.tab.wait_for_function("said => document.querySelector('.said').textContent === said", arg=said)
+        assert opened.values()["crank.length"] == 0.87
+    opened.turn_over()
+
+
+def of_a_studio(text: str) -> str:
+    """What stands behind the address in a link that Share copies."""
+    packer = zlib.compressobj(wbits=-15)
+    packed = packer.compress(text.encode()) + packer.flush()
+    return "#model=" + base64.urlsafe_b64encode(packed).decode().rstrip("=")
 
 
 ITERATED = ("triad", "class_four_group", "fourth_order_group", "rack_and_rocker", "stephenson_sixbar_triad", "wedge")

@@ -4,7 +4,9 @@ import type { Group, PageData } from "./data";
 import type { Values, Wall } from "./solver";
 import type { History } from "./history";
 import type { Session } from "./session";
+import { holdsModel, modelOf } from "./share";
 import { digits, quantity, Words } from "./words";
+import { readBack } from "./written";
 
 const CYCLE_SECONDS = [2, 6];
 /** The end of a cycle that is played once. */
@@ -145,6 +147,7 @@ export class Page {
 
   /** Takes the dimensions of a link; what it does not know, or no machine can be, is left. */
   follow(hash: string): void {
+    if (holdsModel(hash)) return void this.take(hash);
     const wanted = this.sessions.map((session) => ({ ...session.model.values }));
     for (const part of hash.replace(/^#/, "").split("&")) {
       const [place, text] = part.split("="), dot = place.indexOf("."), value = Number(text);
@@ -162,6 +165,16 @@ export class Page {
     this.sessions.forEach((session, k) => {
       if (Object.keys(wanted[k]).some((name) => wanted[k][name] !== session.model.values[name])) session.take(wanted[k]);
     });
+  }
+
+  /** Takes the dimensions of the model in a link, where it is that of a machine on the page; says where it is not. */
+  private async take(link: string): Promise<void> {
+    const text = await modelOf(link);
+    for (const session of text === null ? [] : this.sessions) {
+      const values = readBack(text!, session.data);
+      if (values) return session.take({ ...session.model.values, ...values });
+    }
+    this.note.value = this.say(text === null ? "link_broken" : "link_other");
   }
 }
 

@@ -53,7 +53,8 @@ export class Session {
   /** Called when a change has ended. */
   ended: (() => void) | null = null;
   readonly history = new History<Values>(() => ({ ...this.model.values }), (values) => this.go(values));
-  private counted = 0;
+  /** Variants that have been kept so far. */
+  counted = 0;
   private resting = 0;
   /** When the movement began that tables and fields do not show yet. */
   private since = 0;
@@ -115,23 +116,6 @@ export class Session {
       const rounded = { ...model.values, ...Object.fromEntries(near) };
       if (model.allows(rounded)) return model.change(rounded);
     }
-  }
-
-  /** Goes on where another session of the same machine was: what is shown, kept and compared with. */
-  inherit(old: Session): void {
-    const known = (id: string) => id in this.model.signals;
-    if (this.data.numbers.every(({ id }) => id in old.model.original.numbers) && Object.keys(this.model.signals).every((id) => id in old.model.original.rows)) {
-      this.model.original = old.model.original;
-      this.variants.value = old.variants.value;
-      this.counted = old.counted;
-    }
-    const chosen = old.curves.value;
-    if (chosen.join() !== old.data.curves.join() && chosen.every(known)) this.curves.value = chosen;
-    const points = new Set(this.data.points.map(({ key }) => key));
-    Object.assign(this.shown, old.shown, { paths: new Set([...old.shown.paths].filter((key) => points.has(key))) });
-    const close = (address: string) => Math.abs(this.model.values[address] - old.model.values[address]) <= 1e-9 * Math.abs(this.model.values[address]);
-    if (this.data.dimensions.every(({ address }) => close(address))) this.model.wall = old.model.wall;
-    for (const address of old.model.locked) if (address in this.model.values) this.model.locked.add(address);
   }
 
   /** Takes given values as a step of its own. */
@@ -210,16 +194,6 @@ export class Session {
     }
     this.view?.ghosts(rows);
     return count;
-  }
-
-  /** Draws the paths of another design, if it can be built, over the present one; null: as before. */
-  foresee(values: Values | null): void {
-    if (!values) return this.sweep(this.swept.value);
-    const { model } = this, known = Object.entries(values).filter(([address]) => address in model.values);
-    const met = !model.evaluate({ ...model.values, ...Object.fromEntries(known) });
-    const paths = this.traced.map((key) => ({ x: model.main.row(`p:${key}.x`).slice(), y: model.main.row(`p:${key}.y`).slice() }));
-    model.evaluate(model.values);
-    this.view?.ghosts(met ? paths : []);
   }
 
   /** The model's text with the changed numbers in their places, and the names of those that have none. */

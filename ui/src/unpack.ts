@@ -7,15 +7,15 @@ export interface Packed {
   data: PageData;
 }
 
-const DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%&()*+-;,=>?@^_`{|}~";
+/** The digits of base 85 are the signs from this one on, with ! for the one that opens tags. */
+const ZERO = 40;
 
-/** Bytes of a text in base 85, with a comma for the sign that opens tags; what lacks at its end are largest digits. */
+/** Bytes of a text in base 85; what lacks at its end are largest digits. */
 function bytes(text: string): Uint8Array<ArrayBuffer> {
-  const value = new Uint8Array(128), whole = text + "~~~~", found = new DataView(new ArrayBuffer(4 * Math.ceil(text.length / 5)));
-  for (let k = 0; k < 85; k++) value[DIGITS.charCodeAt(k)] = k;
+  const whole = text.replaceAll("!", "<") + "||||", found = new DataView(new ArrayBuffer(4 * Math.ceil(text.length / 5)));
   for (let k = 0; k < text.length; k += 5) {
     let sum = 0;
-    for (let j = 0; j < 5; j++) sum = 85 * sum + value[whole.charCodeAt(k + j)];
+    for (let j = 0; j < 5; j++) sum = 85 * sum + whole.charCodeAt(k + j) - ZERO;
     found.setUint32((4 * k) / 5, sum);
   }
   return new Uint8Array(found.buffer, 0, Math.floor((4 * text.length) / 5));

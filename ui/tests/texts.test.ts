@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import test from "node:test";
 import { Model } from "../src/model";
 import { digits, quantity, unitFor, Words } from "../src/words";
-import { written } from "../src/written";
+import { readBack, written } from "../src/written";
 import { dimension, sliderCrank } from "./machine";
 import { near } from "./near";
 
@@ -58,6 +58,27 @@ test("the coordinates of a drawing are those of the machine where its drawing ha
   const found = /^B: \[(\S+) mm, (\S+) mm\]\n$/.exec(written(model).text)!;
   near(Number(found[1]), 1e3 * (0.05 * Math.cos(0.5) + Math.sqrt(0.25 ** 2 - (0.05 * Math.sin(0.5) - 0.01) ** 2)), 1e-13);
   near(Number(found[2]), 10, 1e-13);
+});
+
+test("a text with other numbers in their places gives them, any other text is of another machine", () => {
+  const own = "# 𝔸 (曲柄)\na: {one} mm # a+b?\nb: {two} deg\n", { data } = holding(own, { one: 1e-3, two: Math.PI / 180 });
+  const now = Object.fromEntries(data.dimensions.map(({ address, value }) => [address, value]));
+  const text = (one: string, two: string) => own.replace("{one}", one).replace("{two}", two);
+  assert.deepEqual(readBack(data.text, data), now);
+  assert.deepEqual(readBack(text("12.5", "-4.5e1"), data), { ...now, one: 0.0125, two: -45 * (Math.PI / 180) });
+  for (const other of [text("1 ", "1"), text("one", "1"), text("1", "1..5"), text("1", "1e999"), text("2", "1").replace("曲柄", "摇杆"), `${text("2", "1")}c: 1\n`, "", ".*"])
+    assert.equal(readBack(other, data), null, other);
+});
+
+test("numbers that a text has not yet, and its drawing, are read where a page writes them", () => {
+  const model = holding("x: {x}\n", { x: 1 }), { data } = model;
+  data.dimensions.push(dimension("turn", 0, { factor: 0.5, written: [4, 4, ", turn: ", " half"] }));
+  data.drawing.places = [["p:B.x", [0, 1, "", ""], 1]];
+  assert.equal(readBack("7: 3, turn: 8 half\n", data)!.turn, 4);
+  assert.equal(readBack("7: 3\n", data)!.turn, 0);
+  data.dimensions.push(dimension("rod", 1, { drawn: true }));
+  assert.equal(readBack("7: 3\n", data), null);
+  assert.equal(readBack("x: 3\n", data)!.x, 3);
 });
 
 test("digits as they are read", () => {

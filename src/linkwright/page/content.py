@@ -5,6 +5,8 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
+import re
+import string
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -40,6 +42,13 @@ from linkwright.words import LANGUAGES, Message, _
 from linkwright.words.message import in_language
 
 _TAGS = {"zh": "zh-CN"}
+#: Four bytes in five characters that follow each other; none of them opens a tag.
+_DIGITS = bytes.maketrans(
+    (string.digits + string.ascii_uppercase + string.ascii_lowercase + "!#$%&()*+-;<=>?@^_`{|}~").encode(),
+    bytes(range(40, 125)).replace(b"<", b"!"),
+)
+#: Before what is unlike in the content of a page.
+_PARTS = re.compile(r'(?=,"(?:script|data|models)":)')
 
 
 def solved(machine: Mechanism | Document, steps: int) -> tuple[Motion, str | None]:
@@ -147,12 +156,16 @@ def document(data: Plain, title: str, language: str) -> str:
     modules = [base64.b64decode(each["module"]) for each in data["models"]]
     models = [{**each, "module": len(module)} for each, module in zip(data["models"], modules, strict=True)]
     content = {"style": style, "script": script, "data": {**data, "models": models}}
-    text = json.dumps(content, ensure_ascii=False, separators=(",", ":")).encode()
-    # Scripts, numbers and modules differ: with little memory they come in blocks with codes of their own.
-    packer = zlib.compressobj(9, memLevel=6)
-    packed = packer.compress(b"".join([len(text).to_bytes(4, "little"), text, *modules])) + packer.flush()
-    # Four bytes in five characters; none of them opens a tag.
-    written = base64.b85encode(packed).replace(b"<", b",").decode()
+    text = json.dumps(content, ensure_ascii=False, separators=(",", ":"))
+    parts = [each.encode() for each in _PARTS.split(text)]
+    # Style, script, words, numbers and modules differ: they come in blocks with codes of their own.
+    packer = zlib.compressobj(9)
+    length = sum(map(len, parts)).to_bytes(4, "little")
+    blocks = [
+        packer.compress(each) + packer.flush(zlib.Z_BLOCK) for each in (length + parts[0], *parts[1:], *modules)
+    ]
+    packed = b"".join([*blocks, packer.flush()])
+    written = base64.b85encode(packed).translate(_DIGITS).decode()
     unpack = _built("unpack.js")
     hashes = " ".join(f"'sha256-{_hash(each)}'" for each in (unpack, script))
     policy = (

@@ -57,6 +57,8 @@ TEXTS = {
         "A link with this model is in the address line; copy it. It opens in a studio: File, "
         "Open a shared link; or by `linkwright studio LINK`."
     ),
+    "page.link_other": _("This link is of another machine. It opens in a studio: File, Open a shared link."),
+    "page.link_broken": _("This link holds no drawing; copy it again, whole."),
     "page.not_written": _("The file gives these in another way, so they are not written into it: {names}."),
     "page.print": _("Print"),
     "page.drawing": _(

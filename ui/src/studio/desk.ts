@@ -4,6 +4,7 @@ import { bytes, type ModelData } from "../data";
 import { History } from "../history";
 import { save, type Page } from "../living";
 import { code, type Values } from "../solver";
+import { inherit } from "./inherit";
 import type { Action, Picture } from "./picture";
 import { Session } from "../session";
 import { keepSteps, recallSteps } from "./steps";
@@ -400,7 +401,7 @@ export class Desk {
     const session = new Session(solved.model, await code(solved.model), 0), old = this.session.value;
     while (old?.held) await new Promise((go) => setTimeout(go, HELD));
     if (text !== this.text.value) return;
-    if (old) session.inherit(old);
+    if (old) inherit(session, old);
     session.ended = () => void this.adopt(session);
     this.session.value = session;
     this.page.sessions.splice(0, Infinity, ...(this.session.value ? [this.session.value] : []));

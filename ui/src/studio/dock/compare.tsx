@@ -3,6 +3,7 @@ import { signal } from "@preact/signals";
 import { useEffect, useState } from "preact/hooks";
 import { rows as metricRows } from "../../compare";
 import type { Folder, Solved } from "../desk";
+import { foreseen } from "../foreseen";
 import { Session } from "../../session";
 import { code, type Values } from "../../solver";
 import { digits, quantity } from "../../words";
@@ -86,7 +87,7 @@ export function Compare({ bench, session }: { bench: Bench; session: Session }) 
   useEffect(() => () => foresee(bench, null), []);
   const look = (column: Column | null) => {
     const drawing = column?.other?.solved.picture;
-    session.foresee(column?.values ?? null);
+    foreseen(session, column?.values ?? null);
     foresee(bench, drawing ? { drawing: { points: drawing.points, fixed: drawing.fixed, links: drawing.links, guides: [], driver: drawing.driver ?? "" }, curve: [] } : null);
   };
   const differ = (list: Row[]) => list.filter(({ off }) => off > SAME).sort((a, b) => b.off - a.off), alike = [...dimensions, ...metrics].filter(({ off }) => off <= SAME);

@@ -1,6 +1,7 @@
 // Optimisation: what varies within which range, what is made least or most, what must hold; the designs as they are found.
 import { useEffect, useState } from "preact/hooks";
 import type { Better } from "../desk";
+import { foreseen } from "../foreseen";
 import type { Session } from "../../session";
 import type { Bench } from "../bench";
 import { Icon } from "../frame/icons";
@@ -150,7 +151,7 @@ function Designs({ bench, session }: Props) {
 }
 
 function Design({ bench, session, better, head, number }: Props & { better: Better; head: string[]; number: number }) {
-  const name = bench.say("design", { number: String(number) }), look = () => session.foresee(better.values), leave = () => session.foresee(null);
+  const name = bench.say("design", { number: String(number) }), look = () => foreseen(session, better.values), leave = () => foreseen(session, null);
   const take = () => {
     leave();
     void bench.desk.enough();
