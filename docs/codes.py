@@ -156,7 +156,7 @@ AREAS: Mapping[str, tuple[str, str]] = {
     "running": ("steady running: motor and flywheel", "稳定运转：电动机与飞轮"),
     "sheet": ("drawing sheets", "图纸"),
     "solve": ("the command solve", "命令 solve"),
-    "studio": ("the studio", "编辑器"),
+    "studio": ("the studio", "工作室"),
     "study": ("studies, sweeps, sensitivities and comparisons", "研究、扫描、灵敏度与比较"),
     "synthesize": ("synthesis", "综合"),
     "tolerance": ("tolerances", "公差"),
