@@ -6,7 +6,8 @@ import type { Item } from "../src/studio/bench";
 import { Camera } from "../src/studio/sheet/camera";
 import { Scene } from "../src/studio/sheet/scene";
 import { centres, radii, wheels } from "../src/studio/tools/gears";
-import { distance, meeting } from "../src/studio/tools/hand";
+import { dist } from "../src/studio/sheet/geometry";
+import { meeting } from "../src/studio/tools/hand";
 import { driven } from "../src/studio/tools/measure";
 import { SHAPES } from "../src/studio/tools/shapes";
 import type { Overlay, Sheet, Snap, Spot, Tool } from "../src/studio/tools/tool";
@@ -64,15 +65,15 @@ class Desk {
     const free = at(x, y), { scene, camera } = this, under: Item[] = [];
     let snap: Snap | null = null;
     for (const point of scene.points.values())
-      if (distance(point.at, free) * camera.scale < NEAR) {
+      if (dist(point.at, free) * camera.scale < NEAR) {
         snap ??= { kind: "point", sentence: "", at: point.at, name: point.name };
         under.push({ kind: "point", name: point.name });
       }
     for (const link of Object.keys(scene.links)) {
       const corners = scene.corners(link);
       const on = corners.some((a, k) => {
-        const b = corners[(k + 1) % corners.length], t = ((free[0] - a[0]) * (b[0] - a[0]) + (free[1] - a[1]) * (b[1] - a[1])) / distance(a, b) ** 2;
-        return t > 0 && t < 1 && Math.abs((free[0] - a[0]) * (b[1] - a[1]) - (free[1] - a[1]) * (b[0] - a[0])) * camera.scale < NEAR * distance(a, b);
+        const b = corners[(k + 1) % corners.length], t = ((free[0] - a[0]) * (b[0] - a[0]) + (free[1] - a[1]) * (b[1] - a[1])) / dist(a, b) ** 2;
+        return t > 0 && t < 1 && Math.abs((free[0] - a[0]) * (b[1] - a[1]) - (free[1] - a[1]) * (b[0] - a[0])) * camera.scale < NEAR * dist(a, b);
       });
       if (!on) continue;
       snap ??= { kind: "link", sentence: "", at: free, name: link };
@@ -249,7 +250,7 @@ test("a weld is taken back, and an angle of two links turns the second one", asy
   assert.deepEqual(weld.done, [[{ do: "weld", point: "A", on: false }]]);
   const right: Picture = { ...PICTURE, points: { O1: at(0, 0), A: at(100, 0), B: at(200, 0) }, fixed: ["O1"], links: { crank: ["O1", "A"], coupler: ["A", "B"] }, guided: [] };
   const angle = await new Desk("dimension", right).steps([[50, 0], [150, 0], [90, 30], "angle=90", "Enter"]), move = angle.done[0][0] as unknown as { points: Record<string, Vec> };
-  near(distance(move.points.B, at(100, 0)), 0.1, 1e-12);
+  near(dist(move.points.B, at(100, 0)), 0.1, 1e-12);
   near(move.points.B[0], 0.1, 1e-12);
   // The arm ends at a pivot: the crank turns, a quarter turn from the arm that goes straight up.
   const closed: Picture = { ...right, points: { O1: at(0, 0), A: at(100, 0), O2: at(100, 50) }, fixed: ["O1", "O2"], links: { crank: ["O1", "A"], arm: ["A", "O2"] } };

@@ -1,6 +1,7 @@
 // Cam: click the link that turns, then the point that follows, then its lift; law and touch are set in the inspector.
 import type { Vec } from "../../shapes";
-import { distance, heading, pivotOf, pointAt, polar } from "./hand";
+import { dist, heading } from "../sheet/geometry";
+import { beyond, pivotOf, pointAt } from "./hand";
 import { circle, joint, line, taken } from "./marks";
 import { picking, pivoted, type Hand, type Step } from "./picking";
 import { blocks } from "./rack";
@@ -31,7 +32,7 @@ const at: Step = {
 
 /** The lift that the pointer sets: how far it is from the follower, away from the cam. */
 function lift({ picked: [cam, point], values }: Hand, spot: Spot): number {
-  const far = distance(cam.at, spot.place) - distance(cam.at, point.at);
+  const far = dist(cam.at, spot.place) - dist(cam.at, point.at);
   return values.value("lift") ?? Math.max(0, Math.round(far / LEAST) * LEAST);
 }
 
@@ -56,7 +57,7 @@ export const makeCam = picking({
     if (cam) taken(over, sheet, cam.name);
     if (!point) return;
     joint(over, screen(point.at));
-    const base = distance(screen(cam.at), screen(point.at)), size = spot ? lift(hand, spot) : 0, to = polar(point.at, size, heading(cam.at, point.at));
+    const base = dist(screen(cam.at), screen(point.at)), size = spot ? lift(hand, spot) : 0, to = beyond(point.at, size, heading(cam.at, point.at));
     circle(over, screen(cam.at), base, "ghost");
     if (!size) return;
     circle(over, screen(cam.at), base + sheet.camera.scale * size, "soft dashed");

@@ -1,7 +1,8 @@
 // Dimension: click a link, two points or two links, then where the dimension stands, and type its value: it drives the drawing.
 import type { Bench, Item } from "../bench";
 import type { Entry } from "../outline";
-import { Clicks, distance, polar, turned, TypedValues } from "./hand";
+import { dist } from "../sheet/geometry";
+import { beyond, ClickTool, turned, TypedValues } from "./hand";
 import { line, outline } from "./marks";
 import { directions, driven, type Measure, measured, nearestSide, sizeOf } from "./measure";
 import type { Field, MakeTool, Overlay, Sheet, Spot, Tool } from "./tool";
@@ -10,15 +11,15 @@ import { reads } from "./typed";
 // Least length, m; distance of the line from what it measures and radius of an arc, at least, px.
 const LEAST = 5e-5, OFF = 14, ARC = 24;
 
-class DimensionTool implements Tool {
+class DimensionTool extends ClickTool implements Tool {
   readonly name = "dimension";
-  private readonly clicks = new Clicks((spot) => this.click(spot));
   private values: TypedValues;
   private picked: Item[] = [];
   /** Where its line stands; null: it follows the pointer. */
   private stands: Spot | null = null;
 
-  constructor(private readonly sheet: Sheet) {
+  constructor(sheet: Sheet) {
+    super(sheet);
     this.values = new TypedValues(sheet.bench, { length: "length", angle: "angle" });
   }
 
@@ -26,15 +27,6 @@ class DimensionTool implements Tool {
     const step = !this.picked.length ? "first" : !this.measure ? "second" : this.stands ? "value" : "place";
     return [`hint.dimension.${step}`];
   }
-
-  down = (spot: Spot) => this.clicks.down(spot);
-
-  move(spot: Spot): void {
-    this.clicks.move(spot);
-    this.sheet.redraw();
-  }
-
-  up = (spot: Spot) => this.clicks.up(spot);
 
   enter(): void {
     const { spot } = this.sheet;
@@ -68,7 +60,7 @@ class DimensionTool implements Tool {
 
   takes = ({ kind }: Item) => kind === "point" || kind === "link" || kind === "dimension";
 
-  private click(spot: Spot): void {
+  protected click(spot: Spot): void {
     const [first, second] = this.picked, found = this.under(spot);
     if (this.measure && (this.stands || this.values.any)) {
       if (this.values.any) void this.set();
@@ -122,14 +114,14 @@ class DimensionTool implements Tool {
     if (!measure || !spot) return;
     const key = measure.kind === "angle" ? "angle" : "length", text = reads(this.values.value(key) ?? sizeOf(scene, measure), key, unit);
     if (measure.kind === "angle") return this.arc(over, measure, spot, text);
-    const [a, b] = measure.points.map((point) => camera.screen(scene.at(point)!)), far = distance(a, b) || 1;
+    const [a, b] = measure.points.map((point) => camera.screen(scene.at(point)!)), far = dist(a, b) || 1;
     const off = ((spot.screen[0] - a[0]) * (b[1] - a[1]) - (spot.screen[1] - a[1]) * (b[0] - a[0])) / far;
     over.dimension(a, b, text, "hand strong", Math.abs(off) < OFF ? (off < 0 ? -OFF : OFF) : off);
   }
 
   private arc(over: Overlay, measure: Measure & { kind: "angle" }, spot: Spot, text: string): void {
-    const { scene, camera } = this.sheet, [a, b] = directions(scene, measure), at = camera.screen(scene.at(measure.arms[1][0])!), r = Math.max(ARC, distance(at, spot.screen));
-    const bent = turned(b - a), [from, to, middle] = [polar(at, r, -a), polar(at, r, -b), polar(at, r + 14, -a - bent / 2)];
+    const { scene, camera } = this.sheet, [a, b] = directions(scene, measure), at = camera.screen(scene.at(measure.arms[1][0])!), r = Math.max(ARC, dist(at, spot.screen));
+    const bent = turned(b - a), [from, to, middle] = [beyond(at, r, -a), beyond(at, r, -b), beyond(at, r + 14, -a - bent / 2)];
     over.path(line(at, from) + line(at, to), "soft dashed");
     over.path(`M${from[0].toFixed(1)} ${from[1].toFixed(1)}A${r.toFixed(1)} ${r.toFixed(1)} 0 0 ${bent > 0 ? 0 : 1} ${to[0].toFixed(1)} ${to[1].toFixed(1)}`, "hand");
     over.text([middle[0], middle[1] + 4], text, "hand strong");

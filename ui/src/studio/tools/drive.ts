@@ -1,7 +1,7 @@
 // Drive: a click on a link turns it about its pivot, on a slider moves it along its guide, again removes the drive.
 import type { Action, Drive } from "../picture";
 import { arcPath, type Stand } from "../sheet/loads";
-import { Clicks, pivotOf, TypedValues } from "./hand";
+import { ClickTool, pivotOf, TypedValues } from "./hand";
 import type { Field, MakeTool, Overlay, Sheet, Spot, Tool } from "./tool";
 import type { Item } from "../bench";
 import { typed } from "./typed";
@@ -9,14 +9,14 @@ import { typed } from "./typed";
 /** What can be driven: a link about its pivot, or a joint along which a block slides. */
 type Driven = { link: string; about: string } | { slide: string };
 
-class DriveTool implements Tool {
+class DriveTool extends ClickTool implements Tool {
   readonly name = "drive";
-  private readonly clicks = new Clicks((spot) => this.click(spot));
   private values: TypedValues;
   /** The drive that was set last: its speed can still be typed. */
   private last: { name: string; turns: boolean } | null = null;
 
-  constructor(private readonly sheet: Sheet) {
+  constructor(sheet: Sheet) {
+    super(sheet);
     this.values = new TypedValues(sheet.bench, { speed: "rate" });
   }
 
@@ -27,15 +27,6 @@ class DriveTool implements Tool {
   hint(): [string] {
     return ["hint.drive"];
   }
-
-  down = (spot: Spot) => this.clicks.down(spot);
-
-  move(spot: Spot): void {
-    this.clicks.move(spot);
-    this.sheet.redraw();
-  }
-
-  up = (spot: Spot) => this.clicks.up(spot);
 
   /** What an element would be driven as; null: not at all. */
   private driven({ kind, name }: Item): Driven | null {
@@ -53,7 +44,7 @@ class DriveTool implements Tool {
 
   takes = (item: Item) => this.driven(item) !== null;
 
-  private click(spot: Spot): void {
+  protected click(spot: Spot): void {
     const found = spot.under.map((item) => this.driven(item)).find((each) => each !== null), { drives = {} } = this.stand.picture;
     this.last = null;
     this.values.clear();

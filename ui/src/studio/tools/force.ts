@@ -3,7 +3,7 @@ import type { Vec } from "../../shapes";
 import { arrowPath, forceScale, gapAt, nice, type Stand } from "../sheet/loads";
 import { type Aim, aimed, direction } from "./aim";
 import { type Grip, grip } from "./grip";
-import { Clicks, polar, TypedValues } from "./hand";
+import { beyond, ClickTool, TypedValues } from "./hand";
 import { LastLoad } from "./last";
 import type { Field, MakeTool, Overlay, Sheet, Spot, Tool } from "./tool";
 import { reads } from "./typed";
@@ -12,9 +12,8 @@ import { written } from "./written";
 /** A size in hand is a whole number of these pixels. */
 const COARSE = 5;
 
-class ForceTool implements Tool {
+class ForceTool extends ClickTool implements Tool {
   readonly name = "force";
-  private readonly clicks = new Clicks((spot) => this.click(spot), () => !this.held);
   private readonly values: TypedValues;
   private readonly last: LastLoad;
   private held: Grip | null = null;
@@ -23,7 +22,8 @@ class ForceTool implements Tool {
   private pull: Vec = [0, 0];
   private free = false;
 
-  constructor(private readonly sheet: Sheet) {
+  constructor(sheet: Sheet) {
+    super(sheet);
     this.values = new TypedValues(sheet.bench, { size: "force", direction: "angle" });
     this.last = new LastLoad(sheet, [{ key: "size", quantity: "force", path: "magnitude" }]);
   }
@@ -36,15 +36,11 @@ class ForceTool implements Tool {
     return [this.held ? "hint.force_size" : "hint.force"];
   }
 
-  down = (spot: Spot) => this.clicks.down(spot);
-
-  move(spot: Spot): void {
+  override move(spot: Spot): void {
     this.clicks.move(spot);
     this.follow(spot);
     this.sheet.redraw();
   }
-
-  up = (spot: Spot) => this.clicks.up(spot);
 
   private follow({ screen, alt }: Spot): void {
     if (!this.held) return;
@@ -53,7 +49,11 @@ class ForceTool implements Tool {
     this.free = alt;
   }
 
-  private click(spot: Spot): void {
+  protected override pulls(): boolean {
+    return !this.held;
+  }
+
+  protected click(spot: Spot): void {
     const { scene, bench } = this.sheet;
     if (this.held) {
       this.follow(spot);
@@ -149,7 +149,7 @@ class ForceTool implements Tool {
     const at = sheet.camera.screen(held.at), { angle, snapped } = this.aim;
     over.circle(at, 5, "hand pin");
     if (Math.hypot(...this.pull) < COARSE && !this.values.any) return;
-    const u: Vec = [Math.cos(angle), -Math.sin(angle)], tip = polar(at, -gapAt(held.link, this.stand), -angle), long = Math.max(16, this.reach), tail: Vec = [tip[0] - long * u[0], tip[1] - long * u[1]];
+    const u: Vec = [Math.cos(angle), -Math.sin(angle)], tip = beyond(at, -gapAt(held.link, this.stand), -angle), long = Math.max(16, this.reach), tail: Vec = [tip[0] - long * u[0], tip[1] - long * u[1]];
     if (snapped === "guide" || snapped === "link") over.path(`M${at[0] - 300 * u[0]} ${at[1] - 300 * u[1]}L${at[0] + 110 * u[0]} ${at[1] + 110 * u[1]}`, "hand dashed");
     const [shaft, head] = arrowPath(tail, tip);
     over.path(shaft, "load thick");

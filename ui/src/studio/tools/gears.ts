@@ -2,7 +2,8 @@
 // one wheel lies inside the other.
 import type { Vec } from "../../shapes";
 import type { Scene } from "../sheet/scene";
-import { distance, linkAt, pivotOf } from "./hand";
+import { dist } from "../sheet/geometry";
+import { linkAt, pivotOf } from "./hand";
 import { circle, line, taken } from "./marks";
 import { picking, type Hand, type Step } from "./picking";
 import type { Spot } from "./tool";
@@ -19,7 +20,7 @@ export interface Wheels {
 
 /** The wheels that a place sets, seen from the first centre towards the second. */
 export function wheels(a: Vec, b: Vec, [x, y]: Vec, step = FIVES): Wheels {
-  const far = distance(a, b), t = ((x - a[0]) * (b[0] - a[0]) + (y - a[1]) * (b[1] - a[1])) / far ** 2, inside = t < 0 || t > 1;
+  const far = dist(a, b), t = ((x - a[0]) * (b[0] - a[0]) + (y - a[1]) * (b[1] - a[1])) / far ** 2, inside = t < 0 || t > 1;
   const [first, second] = [Math.abs(t), Math.abs(1 - t)], ratio = Math.max(first, second) / Math.max(Math.min(first, second), 1e-9);
   const large = Math.min(LARGE, Math.max(inside ? SMALL + MORE : SMALL, step * Math.round((SMALL * ratio) / step)));
   return { teeth: first < second ? [SMALL, large] : [large, SMALL], inside };
@@ -97,7 +98,7 @@ export const makeGears = picking({
     const { sheet, picked } = hand;
     for (const { name } of picked) taken(over, sheet, name);
     if (!spot || picked.length < 2) return;
-    const found = asked(hand, spot), [a, b] = middles(hand).map((at) => sheet.camera.screen(at)), sizes = radii(found, distance(a, b));
+    const found = asked(hand, spot), [a, b] = middles(hand).map((at) => sheet.camera.screen(at)), sizes = radii(found, dist(a, b));
     over.path(line(a, b), "soft dashed");
     [a, b].forEach((centre, k) => {
       if (Number.isFinite(sizes[k])) circle(over, centre, sizes[k], "ghost");

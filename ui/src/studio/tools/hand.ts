@@ -1,8 +1,9 @@
 // What tools that draw have in common: clicks, typed values, names that are free, what is under the pointer.
 import type { Vec } from "../../shapes";
 import type { Bench, Item } from "../bench";
+import { dist } from "../sheet/geometry";
 import type { Scene } from "../sheet/scene";
-import type { Field, Spot } from "./tool";
+import type { Field, Sheet, Spot } from "./tool";
 import { typed, type Typed } from "./typed";
 
 // A press that goes farther than this is a drag, and a click within this of a joint is on it, px.
@@ -12,10 +13,9 @@ const TOGETHER = 1e-6;
 // O is for pivots.
 const LETTERS = "ABCDEFGHIJKLMNPQRSTUVWXYZ";
 
-export const distance = (a: Vec, b: Vec) => Math.hypot(b[0] - a[0], b[1] - a[1]);
-export const heading = (a: Vec, b: Vec) => Math.atan2(b[1] - a[1], b[0] - a[0]);
-export const polar = ([x, y]: Vec, far: number, angle: number): Vec => [x + far * Math.cos(angle), y + far * Math.sin(angle)];
-export const near = (spot: Spot, screen: Vec) => distance(spot.screen, screen) <= ON;
+/** The place at a distance from another one, in a direction. */
+export const beyond = ([x, y]: Vec, far: number, angle: number): Vec => [x + far * Math.cos(angle), y + far * Math.sin(angle)];
+export const near = (spot: Spot, screen: Vec) => dist(spot.screen, screen) <= ON;
 
 /** Makes clicks of presses. Where `begins`, a drag is two clicks: one where it begins, one where it ends. */
 export class Clicks {
@@ -51,7 +51,34 @@ export class Clicks {
   }
 
   private far({ screen, touch }: Spot): boolean {
-    return distance(this.pressed!.screen, screen) > (touch ? STILL_TOUCH : STILL);
+    return dist(this.pressed!.screen, screen) > (touch ? STILL_TOUCH : STILL);
+  }
+}
+
+/** A tool that works by clicks. */
+export abstract class ClickTool {
+  protected readonly clicks = new Clicks((spot) => this.click(spot), () => this.pulls());
+
+  constructor(readonly sheet: Sheet) {}
+
+  protected abstract click(spot: Spot): void;
+
+  /** Whether a drag that begins now is two clicks. */
+  protected pulls(): boolean {
+    return false;
+  }
+
+  down(spot: Spot): void {
+    this.clicks.down(spot);
+  }
+
+  move(spot: Spot): void {
+    this.clicks.move(spot);
+    this.sheet.redraw();
+  }
+
+  up(spot: Spot): void {
+    this.clicks.up(spot);
   }
 }
 
@@ -148,7 +175,7 @@ export function pointAt(spot: Spot, scene: Scene): string | null {
 
 /** Of points at one place the one that is seen: that of a block, not the one of the frame by which its guide goes. */
 function uppermost(scene: Scene, name: string): string {
-  const at = scene.at(name)!, here = [...scene.points.values()].filter((each) => distance(each.at, at) < TOGETHER);
+  const at = scene.at(name)!, here = [...scene.points.values()].filter((each) => dist(each.at, at) < TOGETHER);
   return (here.find((each) => scene.guided.includes(each.name)) ?? here.find((each) => each.links.length) ?? here[0]).name;
 }
 
@@ -173,7 +200,7 @@ export function pivotOf(scene: Scene, link: string): string | null {
 
 /** Where two circles meet, on the side of a place; null where they do not. */
 export function meeting(a: Vec, ra: number, b: Vec, rb: number, towards: Vec): Vec | null {
-  const far = distance(a, b), u = (far * far + ra * ra - rb * rb) / (2 * far), square = ra * ra - u * u;
+  const far = dist(a, b), u = (far * far + ra * ra - rb * rb) / (2 * far), square = ra * ra - u * u;
   if (!far || square < -1e-12) return null;
   const [ex, ey]: Vec = [(b[0] - a[0]) / far, (b[1] - a[1]) / far], v = Math.sqrt(Math.max(0, square));
   const side = ex * (towards[1] - a[1]) - ey * (towards[0] - a[0]) < 0 ? -v : v;

@@ -1,15 +1,15 @@
 // Link: click a joint, click the next one; the end of a link begins the next. A typed length is kept whatever the pointer does.
 import type { Vec } from "../../shapes";
-import { Clicks, current, distance, dropped, type End, endAt, heading, near, pointAt, polar, TypedValues } from "./hand";
+import { dist, heading } from "../sheet/geometry";
+import { beyond, ClickTool, current, dropped, endAt, near, pointAt, type End, TypedValues } from "./hand";
 import { inHand, joint } from "./marks";
 import type { MakeTool, Overlay, Sheet, Spot, Tool } from "./tool";
 
 // A length is not typed below this; a joint is one of the drawing where it is nearer to it than this, m.
 const SAME = 5e-5;
 
-class LinkTool implements Tool {
+class LinkTool extends ClickTool implements Tool {
   readonly name = "link";
-  private readonly clicks = new Clicks((spot) => this.click(spot), () => !this.from);
   private readonly values: TypedValues;
   /** Where the link in hand begins. */
   private from: End | null = null;
@@ -20,7 +20,8 @@ class LinkTool implements Tool {
   /** Names that are not in the drawing yet. */
   private coming: string[] = [];
 
-  constructor(private readonly sheet: Sheet) {
+  constructor(sheet: Sheet) {
+    super(sheet);
     this.values = new TypedValues(sheet.bench, { length: "length", angle: "angle" });
   }
 
@@ -29,15 +30,6 @@ class LinkTool implements Tool {
     if (!this.from) return ["hint.link.first"];
     return [this.sheet.spot?.touch ? "hint.link.tap" : "hint.link.next"];
   }
-
-  down = (spot: Spot) => this.clicks.down(spot);
-
-  move(spot: Spot): void {
-    this.clicks.move(spot);
-    this.sheet.redraw();
-  }
-
-  up = (spot: Spot) => this.clicks.up(spot);
 
   enter(): void {
     const { spot } = this.sheet;
@@ -60,7 +52,7 @@ class LinkTool implements Tool {
     const { spot } = this.sheet;
     if (!this.from || !spot) return [];
     const { at } = this.end(spot), start = this.start!;
-    return [this.values.field("length", this.values.value("length") ?? distance(start, at)), this.values.field("angle", this.values.value("angle") ?? this.direction(spot, at))];
+    return [this.values.field("length", this.values.value("length") ?? dist(start, at)), this.values.field("angle", this.values.value("angle") ?? this.direction(spot, at))];
   }
 
   type = (key: string, text: string) => this.values.type(key, text, (value) => key !== "length" || value > SAME);
@@ -84,7 +76,11 @@ class LinkTool implements Tool {
     return begun;
   }
 
-  private click(spot: Spot): void {
+  protected override pulls(): boolean {
+    return !this.from;
+  }
+
+  protected click(spot: Spot): void {
     this.look();
     if (!this.from) {
       this.from = endAt(spot, this.sheet.scene, this.coming);
@@ -104,7 +100,7 @@ class LinkTool implements Tool {
     if (angle === null && there.name !== this.from!.name && (length === null || !there.made || there.on)) return there;
     const along = angle ?? this.direction(spot, spot.place);
     const far = length ?? Math.max(0, (spot.place[0] - start[0]) * Math.cos(along) + (spot.place[1] - start[1]) * Math.sin(along));
-    const at = polar(start, far, along), known = [...scene.points.values()].find((each) => each.name !== this.from!.name && distance(each.at, at) < SAME);
+    const at = beyond(start, far, along), known = [...scene.points.values()].find((each) => each.name !== this.from!.name && dist(each.at, at) < SAME);
     return known ? { name: known.name, at: known.at, made: false, on: null } : { ...endAt({ ...spot, snap: null }, scene, taken), at };
   }
 
@@ -115,7 +111,7 @@ class LinkTool implements Tool {
 
   private finish(to: End): void {
     const { scene } = this.sheet, from = current(this.from!, scene, this.coming), length = this.values.written("length");
-    if (to.name === from.name || (length === null && distance(this.start!, to.at) < SAME)) return;
+    if (to.name === from.name || (length === null && dist(this.start!, to.at) < SAME)) return;
     const there = Object.keys(scene.links).find((link) => scene.links[link].length === 2 && [from.name, to.name].every((each) => scene.links[link].includes(each)));
     if (there) return this.sheet.refuse("refuse.link_there", { link: there, a: from.name, b: to.name });
     const ends = [from, to], places = Object.fromEntries(ends.filter(({ made }) => made).map(({ name, at }) => [name, at]));

@@ -1,7 +1,8 @@
 // Mass: a click on a link and its mass, the moment of inertia follows; its centre is dragged.
 import type { Vec } from "../../shapes";
 import type { Stand } from "../sheet/loads";
-import { Clicks, distance, linkAt, pointAt, TypedValues } from "./hand";
+import { dist } from "../sheet/geometry";
+import { ClickTool, linkAt, pointAt, TypedValues } from "./hand";
 import { taken } from "./marks";
 import type { Field, MakeTool, Overlay, Sheet, Spot, Tool } from "./tool";
 import { reads } from "./typed";
@@ -10,15 +11,15 @@ import { written } from "./written";
 /** How near the pointer is to a centre that it takes, px; the mass of a link that has none. */
 const NEAR = 10, USUAL = 1;
 
-class MassTool implements Tool {
+class MassTool extends ClickTool implements Tool {
   readonly name = "mass";
-  private readonly clicks = new Clicks((spot) => this.click(spot));
   private readonly values: TypedValues;
   private link = "";
   /** The link whose centre is dragged, and to where, m. */
   private dragged: { link: string; to: Vec } | null = null;
 
-  constructor(private readonly sheet: Sheet) {
+  constructor(sheet: Sheet) {
+    super(sheet);
     this.values = new TypedValues(sheet.bench, { mass: "mass" });
   }
 
@@ -30,24 +31,24 @@ class MassTool implements Tool {
     return [this.link ? "hint.mass_value" : Object.keys(this.stand.picture.masses ?? {}).length ? "hint.mass_centre" : "hint.mass"];
   }
 
-  down(spot: Spot): void {
+  override down(spot: Spot): void {
     const link = this.centreAt(spot);
     if (link) this.dragged = { link, to: spot.place };
     else this.clicks.down(spot);
   }
 
-  move(spot: Spot): void {
+  override move(spot: Spot): void {
     if (this.dragged) this.dragged.to = spot.place;
     else this.clicks.move(spot);
     this.sheet.redraw();
   }
 
-  up(spot: Spot): void {
+  override up(spot: Spot): void {
     const { dragged } = this;
     this.dragged = null;
     if (!dragged) return this.clicks.up(spot);
     const from = this.stand.centre(dragged.link);
-    if (from && distance(this.sheet.camera.screen(from), spot.screen) < NEAR / 2) this.choose(dragged.link);
+    if (from && dist(this.sheet.camera.screen(from), spot.screen) < NEAR / 2) this.choose(dragged.link);
     else this.shift(dragged.link, spot);
   }
 
@@ -55,7 +56,7 @@ class MassTool implements Tool {
   private centreAt({ screen }: Spot): string | null {
     const { stand } = this, far = (link: string) => {
       const at = stand.centre(link);
-      return at ? distance(this.sheet.camera.screen(at), screen) : Infinity;
+      return at ? dist(this.sheet.camera.screen(at), screen) : Infinity;
     };
     return Object.keys(stand.picture.masses ?? {}).find((link) => far(link) <= NEAR) ?? null;
   }
@@ -65,13 +66,13 @@ class MassTool implements Tool {
     const { scene } = this.sheet, { stand } = this, point = pointAt(spot, scene), path = ["links", link, "mass_centre"];
     const [a] = scene.corners(link), axis = stand.axis(link), middle = stand.middle(link), two = scene.links[link]?.length === 2;
     if (point && scene.links[link].includes(point)) return void this.sheet.act([{ do: "set", path, value: point }]);
-    if (middle && two && distance(this.sheet.camera.screen(middle), spot.screen) < NEAR / 2) return void this.sheet.act([{ do: "unset", path }]);
+    if (middle && two && dist(this.sheet.camera.screen(middle), spot.screen) < NEAR / 2) return void this.sheet.act([{ do: "unset", path }]);
     if (!a || axis === null) return;
     const [x, y] = [spot.place[0] - a[0], spot.place[1] - a[1]], [c, s] = [Math.cos(axis), Math.sin(axis)];
     void this.sheet.act([{ do: "set", path, value: [written(x * c + y * s, "length"), written(y * c - x * s, "length")] }]);
   }
 
-  private click(spot: Spot): void {
+  protected click(spot: Spot): void {
     const link = linkAt(spot, this.sheet.scene), { link: before } = this;
     if (before) this.set();
     if (!link) {

@@ -4,7 +4,8 @@ import type { Vec } from "../../shapes";
 import type { Item } from "../bench";
 import type { Entry } from "../outline";
 import type { Scene } from "../sheet/scene";
-import { distance, heading, pivotOf, polar, turned } from "./hand";
+import { dist, heading } from "../sheet/geometry";
+import { beyond, pivotOf, turned } from "./hand";
 
 /** What is measured: the length of a bar, the distance of two points, the angle of the second link from the first. */
 export type Measure =
@@ -44,7 +45,7 @@ export function directions(scene: Scene, { arms }: Measure & { kind: "angle" }):
 }
 
 export function sizeOf(scene: Scene, measure: Measure): number {
-  if (measure.kind !== "angle") return distance(scene.at(measure.points[0])!, scene.at(measure.points[1])!);
+  if (measure.kind !== "angle") return dist(scene.at(measure.points[0])!, scene.at(measure.points[1])!);
   const [a, b] = directions(scene, measure);
   return Math.abs(turned(b - a));
 }
@@ -57,7 +58,7 @@ export function driven(scene: Scene, measure: Measure, value: number, text: stri
   if (measure.kind === "angle") return [{ do: "move", points: turnedTo(scene, measure, value), locked }];
   // The point that is clicked last moves, but a pivot only where both are pivots.
   const fixed = (point: string) => scene.points.get(point)!.fixed, [a, b] = measure.points;
-  const [from, to] = fixed(b) && !fixed(a) ? [b, a] : [a, b], at = polar(scene.at(from)!, value, heading(scene.at(from)!, scene.at(to)!));
+  const [from, to] = fixed(b) && !fixed(a) ? [b, a] : [a, b], at = beyond(scene.at(from)!, value, heading(scene.at(from)!, scene.at(to)!));
   if (fixed(to)) return [{ do: "set", path: ["frame", "points", to], value: at.map((each) => `${Number((1e3 * each).toFixed(4))} mm`) }];
   return [{ do: "move", points: { [to]: at }, locked }];
 }
@@ -70,7 +71,7 @@ function turnedTo(scene: Scene, measure: Measure & { kind: "angle" }, value: num
   const centre = scene.at(measure.arms[k][0])!, by = k ? turn : -turn;
   return Object.fromEntries(others[k].map((point) => {
     const place = scene.at(point)!;
-    return [point, polar(centre, distance(centre, place), heading(centre, place) + by)];
+    return [point, beyond(centre, dist(centre, place), heading(centre, place) + by)];
   }));
 }
 
@@ -98,6 +99,6 @@ export function nearestSide(scene: Scene, link: string, at: Vec): Item[] {
   if (points.length < 3) return [{ kind: "link", name: link }];
   const sides = points.map((point, k) => [point, points[(k + 1) % points.length]]);
   // How much longer the way over the place is than the side itself.
-  const off = (each: string[]) => each.reduce((sum, point) => sum + distance(scene.at(point)!, at), 0) - distance(scene.at(each[0])!, scene.at(each[1])!);
+  const off = (each: string[]) => each.reduce((sum, point) => sum + dist(scene.at(point)!, at), 0) - dist(scene.at(each[0])!, scene.at(each[1])!);
   return sides.reduce((best, each) => (off(each) < off(best) ? each : best)).map((name) => ({ kind: "point", name }));
 }

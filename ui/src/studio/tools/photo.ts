@@ -2,20 +2,21 @@
 import type { Vec } from "../../shapes";
 import type { Item } from "../bench";
 import { scaled, taken } from "../sheet/backdrop";
-import { Clicks, distance, TypedValues } from "./hand";
+import { dist } from "../sheet/geometry";
+import { ClickTool, TypedValues } from "./hand";
 import { line } from "./marks";
 import type { Field, MakeTool, Overlay, Sheet, Spot, Tool } from "./tool";
 
-class PhotoTool implements Tool {
+class PhotoTool extends ClickTool implements Tool {
   readonly name = "photo";
-  private readonly clicks = new Clicks((spot) => this.click(spot));
   private readonly values: TypedValues;
   /** Places on it that have been clicked, m. */
   private places: Vec[] = [];
   private pressed: Spot | null = null;
   private from: Vec | null = null;
 
-  constructor(private readonly sheet: Sheet) {
+  constructor(sheet: Sheet) {
+    super(sheet);
     this.values = new TypedValues(sheet.bench, { length: "length", opacity: "number" });
     if (!sheet.bench.photo.value) this.choose();
   }
@@ -39,33 +40,33 @@ class PhotoTool implements Tool {
     input.click();
   }
 
-  down(spot: Spot): void {
+  override down(spot: Spot): void {
     this.pressed = spot;
     this.from = this.photo.value?.corner ?? null;
     this.clicks.down(spot);
   }
 
   /** A drag moves the picture, unless it is locked. */
-  move(spot: Spot): void {
+  override move(spot: Spot): void {
     const { pressed, from } = this, photo = this.photo.value;
     this.clicks.move(spot);
-    if (pressed && from && photo && !photo.locked && distance(pressed.screen, spot.screen) > 5) {
+    if (pressed && from && photo && !photo.locked && dist(pressed.screen, spot.screen) > 5) {
       this.clicks.drop();
       this.photo.value = { ...photo, corner: [from[0] + spot.free[0] - pressed.free[0], from[1] + spot.free[1] - pressed.free[1]] };
     }
     this.sheet.redraw();
   }
 
-  up(spot: Spot): void {
+  override up(spot: Spot): void {
     this.pressed = null;
     this.clicks.up(spot);
   }
 
-  private click(spot: Spot): void {
+  protected click(spot: Spot): void {
     if (!this.photo.value) return this.choose();
     if (this.places.length === 2) return this.set();
     const [first] = this.places;
-    if (first && distance(this.sheet.camera.screen(first), spot.screen) < 5) return;
+    if (first && dist(this.sheet.camera.screen(first), spot.screen) < 5) return;
     this.places.push(spot.free);
     this.sheet.redraw();
   }
@@ -95,7 +96,7 @@ class PhotoTool implements Tool {
 
   fields(): Field[] {
     if (this.places.length < 2) return [];
-    return [this.values.field("length", distance(this.places[0], this.places[1]))];
+    return [this.values.field("length", dist(this.places[0], this.places[1]))];
   }
 
   type = (key: string, text: string) => this.values.type(key, text, (value) => value > 0);

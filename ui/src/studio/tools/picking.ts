@@ -2,7 +2,7 @@
 import type { Action } from "../picture";
 import type { Vec } from "../../shapes";
 import type { Item, ToolName } from "../bench";
-import { Clicks, linkAt, pivotOf, TypedValues } from "./hand";
+import { ClickTool, linkAt, pivotOf, TypedValues } from "./hand";
 import type { Field, MakeTool, Overlay, Sheet, Spot, Tool } from "./tool";
 
 /** What has been clicked: a link or a point, with its place (m) and actions that have to come before it is there. */
@@ -48,14 +48,13 @@ export interface Picks {
   draw(over: Overlay, hand: Hand, spot: Spot | null): void;
 }
 
-class PickTool implements Tool, Hand {
+class PickTool extends ClickTool implements Tool, Hand {
   picked: Picked[] = [];
   readonly values: TypedValues;
-  private readonly clicks: Clicks;
 
-  constructor(readonly sheet: Sheet, private readonly picks: Picks) {
+  constructor(sheet: Sheet, private readonly picks: Picks) {
+    super(sheet);
     this.values = new TypedValues(sheet.bench, picks.last?.quantities ?? {});
-    this.clicks = new Clicks((spot) => this.click(spot), () => !!picks.drags && !this.picked.length);
   }
 
   get name() {
@@ -76,15 +75,6 @@ class PickTool implements Tool, Hand {
     this.look();
     return [(this.step ?? this.picks.last!).hint, { first: this.picked[0]?.name ?? "", second: this.picked[1]?.name ?? "" }];
   }
-
-  down = (spot: Spot) => this.clicks.down(spot);
-
-  move(spot: Spot): void {
-    this.clicks.move(spot);
-    this.sheet.redraw();
-  }
-
-  up = (spot: Spot) => this.clicks.up(spot);
 
   enter(): void {
     if (this.sheet.spot) this.click(this.sheet.spot);
@@ -111,7 +101,11 @@ class PickTool implements Tool, Hand {
 
   takes = (item: Item) => (this.step ?? this.picks.last)?.takes?.(this, item) ?? false;
 
-  private click(spot: Spot): void {
+  protected override pulls(): boolean {
+    return !!this.picks.drags && !this.picked.length;
+  }
+
+  protected click(spot: Spot): void {
     this.look();
     const { step } = this;
     if (step) {

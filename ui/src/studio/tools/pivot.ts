@@ -1,32 +1,23 @@
 // Pivot: a click sets one, on a joint it fixes it, on a pivot it frees it.
-import { Clicks, freshPoint, pointAt, TypedValues } from "./hand";
+import { ClickTool, freshPoint, pointAt, TypedValues } from "./hand";
 import { joint } from "./marks";
 import type { MakeTool, Overlay, Sheet, Spot, Tool } from "./tool";
 import type { Vec } from "../../shapes";
 
-class PivotTool implements Tool {
+class PivotTool extends ClickTool implements Tool {
   readonly name = "pivot";
-  private readonly clicks = new Clicks((spot) => this.click(spot));
   private readonly values: TypedValues;
   /** Names of pivots that are not in the drawing yet. */
   private readonly coming = new Set<string>();
 
-  constructor(private readonly sheet: Sheet) {
+  constructor(sheet: Sheet) {
+    super(sheet);
     this.values = new TypedValues(sheet.bench, { x: "length", y: "length" });
   }
 
   hint(): [string] {
     return ["hint.pivot"];
   }
-
-  down = (spot: Spot) => this.clicks.down(spot);
-
-  move(spot: Spot): void {
-    this.clicks.move(spot);
-    this.sheet.redraw();
-  }
-
-  up = (spot: Spot) => this.clicks.up(spot);
 
   enter(): void {
     if (this.sheet.spot) this.click(this.sheet.spot);
@@ -55,7 +46,7 @@ class PivotTool implements Tool {
     return this.values.any || spot.alt ? null : pointAt(spot, this.sheet.scene);
   }
 
-  private click(spot: Spot): void {
+  protected click(spot: Spot): void {
     const { scene } = this.sheet, point = this.on(spot);
     if (point) {
       void this.sheet.act([{ do: "fix", point, fixed: !scene.points.get(point)!.fixed }]);

@@ -1,7 +1,8 @@
 // Plate: click three or more joints; Enter or the first joint closes it. With a link selected a click adds a point to it.
 import type { Action } from "../picture";
 import type { Vec } from "../../shapes";
-import { Clicks, current, distance, dropped, type End, endAt, freshPoint, heading, meeting, near, pointAt, polar, TypedValues } from "./hand";
+import { dist, heading } from "../sheet/geometry";
+import { beyond, ClickTool, current, dropped, endAt, freshPoint, meeting, near, pointAt, type End, TypedValues } from "./hand";
 import { arc, inHand, joint, line, taken } from "./marks";
 import type { Field, MakeTool, Overlay, Sheet, Spot, Tool } from "./tool";
 
@@ -12,16 +13,16 @@ interface Corner extends End {
   side: string | null;
 }
 
-class PlateTool implements Tool {
+class PlateTool extends ClickTool implements Tool {
   readonly name = "plate";
-  private readonly clicks = new Clicks((spot) => this.click(spot));
   private readonly values: TypedValues;
   private corners: Corner[] = [];
   /** Length typed for the side from the last corner back to the first. */
   private back: string | null = null;
   private coming: string[] = [];
 
-  constructor(private readonly sheet: Sheet) {
+  constructor(sheet: Sheet) {
+    super(sheet);
     this.values = new TypedValues(sheet.bench, { length: "length", angle: "angle", back: "length" });
   }
 
@@ -31,15 +32,6 @@ class PlateTool implements Tool {
     const [first] = this.corners, last = this.corners[this.corners.length - 1];
     return this.corners.length < 2 ? [first ? "hint.plate.second" : "hint.plate.first"] : [this.sheet.spot?.touch ? "hint.plate.tap" : "hint.plate.next", { first: first.name, last: last.name }];
   }
-
-  down = (spot: Spot) => this.clicks.down(spot);
-
-  move(spot: Spot): void {
-    this.clicks.move(spot);
-    this.sheet.redraw();
-  }
-
-  up = (spot: Spot) => this.clicks.up(spot);
 
   enter(): void {
     const { spot } = this.sheet;
@@ -75,10 +67,10 @@ class PlateTool implements Tool {
     const { spot } = this.sheet;
     if (!this.corners.length || !spot) return [];
     const first = this.at(this.corners[0]), last = this.anchor()!, { at } = this.next(spot) ?? { at: spot.place };
-    const length = this.values.field("length", this.values.value("length") ?? distance(last, at));
+    const length = this.values.field("length", this.values.value("length") ?? dist(last, at));
     if (this.corners.length === 1) return [length, this.values.field("angle", this.values.value("angle") ?? heading(last, at))];
     const label = (name: string) => this.sheet.bench.say("value.to", { point: name });
-    const back = this.values.field("back", this.values.value("back") ?? distance(first, at), { label: label(this.corners[0].name) });
+    const back = this.values.field("back", this.values.value("back") ?? dist(first, at), { label: label(this.corners[0].name) });
     return [{ ...length, label: label(this.corners[this.corners.length - 1].name) }, back];
   }
 
@@ -100,13 +92,13 @@ class PlateTool implements Tool {
       const at = meeting(last, length, first, back, spot.free);
       return at && { ...free, at };
     }
-    if (back !== null) return { ...free, at: polar(first, back, heading(first, spot.place)) };
+    if (back !== null) return { ...free, at: beyond(first, back, heading(first, spot.place)) };
     const along = angle ?? heading(last, spot.place);
     const far = length ?? Math.max(0, (spot.place[0] - last[0]) * Math.cos(along) + (spot.place[1] - last[1]) * Math.sin(along));
-    return { ...free, at: polar(last, far, along) };
+    return { ...free, at: beyond(last, far, along) };
   }
 
-  private click(spot: Spot): void {
+  protected click(spot: Spot): void {
     const { scene, camera } = this.sheet, { adding } = this;
     if (adding) return this.add(adding, spot);
     if (!this.corners.length) {
@@ -164,9 +156,9 @@ class PlateTool implements Tool {
     }
     if (!corners.length) return;
     const places = corners.map((each) => this.at(each)), next = spot && this.next(spot), [first] = places, last = places[places.length - 1];
-    const all = next && distance(screen(first), screen(next.at)) > 1 ? [...places, next.at] : places;
+    const all = next && dist(screen(first), screen(next.at)) > 1 ? [...places, next.at] : places;
     over.path(line(...all.map(screen)) + (all.length > 2 ? "Z" : ""), all.length > 2 ? "hand fill" : "ghost");
-    if (next && distance(screen(last), screen(next.at)) > 1) {
+    if (next && dist(screen(last), screen(next.at)) > 1) {
       inHand(over, this.sheet, last, next.at, false);
       if (places.length > 1) inHand(over, this.sheet, first, next.at, false);
       else arc(over, screen(last), heading(last, next.at));

@@ -1,6 +1,7 @@
 // Slider: click a point of a link, then where its guide leads; on another link the guide lies in that link.
 import type { Vec } from "../../shapes";
-import { distance, heading, linkAt, pointAt } from "./hand";
+import { dist, heading } from "../sheet/geometry";
+import { linkAt, pointAt } from "./hand";
 import { arc, guide, joint, taken } from "./marks";
 import { picking, type Hand, type Step } from "./picking";
 import { movingPoint } from "./slot";
@@ -34,7 +35,7 @@ function within({ sheet: { scene }, picked: [point], values }: Hand, spot: Spot)
 
 /** The direction of the guide, in steps of 15° unless Alt is held or it snaps to something else; null: the pointer says none. */
 function direction({ sheet, picked: [{ at: from }], values }: Hand, spot: Spot): number | null {
-  const given = values.value("angle"), far = distance(sheet.camera.screen(from), spot.screen);
+  const given = values.value("angle"), far = dist(sheet.camera.screen(from), spot.screen);
   if (given !== null) return given;
   if (far < NONE) return null;
   const angle = heading(from, spot.alt ? spot.free : spot.place), exact = spot.alt || (spot.snap && ["point", "line", "guide"].includes(spot.snap.kind));

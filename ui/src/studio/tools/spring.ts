@@ -3,7 +3,8 @@ import type { Vec } from "../../shapes";
 import type { SpringName } from "../bench";
 import type { Stand } from "../sheet/loads";
 import { type Grip, grip } from "./grip";
-import { Clicks, distance, linkAt, pointAt, TypedValues } from "./hand";
+import { dist } from "../sheet/geometry";
+import { ClickTool, linkAt, pointAt, TypedValues } from "./hand";
 import { LastLoad, type Number } from "./last";
 import { inHand, taken } from "./marks";
 import type { Field, MakeTool, Overlay, Sheet, Spot, Tool } from "./tool";
@@ -23,15 +24,15 @@ const KINDS: Record<SpringName, { kind: string; entry: Record<string, string>; n
   torsion_spring: { kind: "torsion_spring", entry: { stiffness: "5 N·m/rad", free_angle: "" }, numbers: [{ key: "twist", quantity: "twist", path: "stiffness" }] },
 };
 
-class SpringTool implements Tool {
+class SpringTool extends ClickTool implements Tool {
   readonly name = "spring";
-  private readonly clicks = new Clicks((spot) => this.click(spot), () => !this.begun);
   private readonly values: TypedValues;
   private last: LastLoad;
   private from: Grip | null = null;
   private link = "";
 
-  constructor(private readonly sheet: Sheet) {
+  constructor(sheet: Sheet) {
+    super(sheet);
     this.values = new TypedValues(sheet.bench, { stiffness: "stiffness", free_length: "length", preload: "force", damping: "damping", twist: "twist" });
     this.last = new LastLoad(sheet, []);
   }
@@ -53,16 +54,11 @@ class SpringTool implements Tool {
     return [this.from ? "hint.spring_second" : "hint.spring"];
   }
 
-  down = (spot: Spot) => this.clicks.down(spot);
-
-  move(spot: Spot): void {
-    this.clicks.move(spot);
-    this.sheet.redraw();
+  protected override pulls(): boolean {
+    return !this.begun;
   }
 
-  up = (spot: Spot) => this.clicks.up(spot);
-
-  private click(spot: Spot): void {
+  protected click(spot: Spot): void {
     this.last.drop();
     if (this.variant === "torsion_spring") this.twist(spot);
     else this.stretch(spot);
@@ -78,7 +74,7 @@ class SpringTool implements Tool {
     }
     if (end?.point === this.from.point) return;
     if (end!.link === this.from.link) return this.sheet.refuse(end!.link === "frame" ? "refuse.spring_frame" : "refuse.spring_link", { name: end!.link });
-    const { from } = this, { kind, numbers } = KINDS[this.variant], entry = { kind, between: [`${from.link}.${from.point}`, `${end!.link}.${end!.point}`], ...this.entry(distance(from.at, end!.at)) };
+    const { from } = this, { kind, numbers } = KINDS[this.variant], entry = { kind, between: [`${from.link}.${from.point}`, `${end!.link}.${end!.point}`], ...this.entry(dist(from.at, end!.at)) };
     this.put([...from.made, ...end!.made], entry, numbers);
   }
 
@@ -138,7 +134,7 @@ class SpringTool implements Tool {
 
   fields(): Field[] {
     if (!this.begun) return this.last.fields();
-    const { numbers } = KINDS[this.variant], { spot } = this.sheet, length = this.from && spot ? distance(this.from.at, spot.place) : 0;
+    const { numbers } = KINDS[this.variant], { spot } = this.sheet, length = this.from && spot ? dist(this.from.at, spot.place) : 0;
     return numbers.map(({ key, quantity, path }) => this.values.field(key, path === "free_length" ? length : this.usual(path, quantity)));
   }
 

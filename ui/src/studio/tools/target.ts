@@ -1,7 +1,7 @@
 // Target curve: drawn freely, or point by point; where it ends at its start it is closed. Opens the synthesis.
 import type { Vec } from "../../shapes";
 import type { Item } from "../bench";
-import { distance } from "./hand";
+import { dist } from "../sheet/geometry";
 import { line } from "./marks";
 import type { MakeTool, Overlay, Sheet, Spot, Tool } from "./tool";
 
@@ -33,12 +33,12 @@ class TargetTool implements Tool {
 
   move(spot: Spot): void {
     const { pressed } = this;
-    if (pressed && !this.drawing && distance(pressed, spot.screen) > STILL && this.places.length === 0) {
+    if (pressed && !this.drawing && dist(pressed, spot.screen) > STILL && this.places.length === 0) {
       this.drawing = true;
       this.places = [this.sheet.camera.world(pressed)];
     }
     const last = this.places.at(-1);
-    if (this.drawing && last && distance(this.sheet.camera.screen(last), spot.screen) >= APART) this.places.push(spot.free);
+    if (this.drawing && last && dist(this.sheet.camera.screen(last), spot.screen) >= APART) this.places.push(spot.free);
     this.sheet.redraw();
   }
 
@@ -59,13 +59,13 @@ class TargetTool implements Tool {
   }
 
   private closes({ screen }: Spot): boolean {
-    return this.places.length >= FEWEST && distance(this.sheet.camera.screen(this.places[0]), screen) <= CLOSING;
+    return this.places.length >= FEWEST && dist(this.sheet.camera.screen(this.places[0]), screen) <= CLOSING;
   }
 
   private click(spot: Spot): void {
     if (this.closes(spot)) return this.finish(true);
     const last = this.places.at(-1);
-    if (last && distance(this.sheet.camera.screen(last), spot.screen) < STILL) return this.finish(false);
+    if (last && dist(this.sheet.camera.screen(last), spot.screen) < STILL) return this.finish(false);
     this.places.push(spot.place);
     this.sheet.redraw();
   }
@@ -126,7 +126,7 @@ class TargetTool implements Tool {
 export function closing(places: Vec[], near: number): number | null {
   let best = near, found: number | null = null;
   for (let k = Math.ceil(places.length / 2); k < places.length; k++) {
-    const far = distance(places[0], places[k]);
+    const far = dist(places[0], places[k]);
     if (far <= best) [best, found] = [far, k];
   }
   return found;

@@ -1,7 +1,7 @@
 // Torque: a press on a link and a drag around it; the angle swept is the size, its sense the sign.
 import type { Vec } from "../../shapes";
 import { arcPath, nice } from "../sheet/loads";
-import { Clicks, linkAt, turned, TypedValues } from "./hand";
+import { ClickTool, linkAt, turned, TypedValues } from "./hand";
 import { LastLoad } from "./last";
 import { taken } from "./marks";
 import type { Field, MakeTool, Overlay, Sheet, Spot, Tool } from "./tool";
@@ -12,16 +12,16 @@ import { written } from "./written";
 // the largest one that is there, and the least that is taken, rad.
 const R = 30, USUAL = 10, QUARTER = Math.PI / 2, MOST = 1.5 * Math.PI, LEAST = 0.15;
 
-class TorqueTool implements Tool {
+class TorqueTool extends ClickTool implements Tool {
   readonly name = "torque";
-  private readonly clicks = new Clicks((spot) => this.click(spot), () => !this.link);
   private readonly values: TypedValues;
   private readonly last: LastLoad;
   private link = "";
   private from = 0;
   private swept = 0;
 
-  constructor(private readonly sheet: Sheet) {
+  constructor(sheet: Sheet) {
+    super(sheet);
     this.values = new TypedValues(sheet.bench, { size: "torque" });
     this.last = new LastLoad(sheet, [{ key: "size", quantity: "torque", path: "magnitude" }]);
   }
@@ -30,15 +30,11 @@ class TorqueTool implements Tool {
     return [this.link ? "hint.torque_size" : "hint.torque"];
   }
 
-  down = (spot: Spot) => this.clicks.down(spot);
-
-  move(spot: Spot): void {
+  override move(spot: Spot): void {
     this.clicks.move(spot);
     this.follow(spot);
     this.sheet.redraw();
   }
-
-  up = (spot: Spot) => this.clicks.up(spot);
 
   private get middle(): Vec | null {
     const stand = this.sheet.stand, middle = stand.middle(this.link);
@@ -56,7 +52,11 @@ class TorqueTool implements Tool {
     this.swept = Math.max(-2 * Math.PI, Math.min(2 * Math.PI, next));
   }
 
-  private click(spot: Spot): void {
+  protected override pulls(): boolean {
+    return !this.link;
+  }
+
+  protected click(spot: Spot): void {
     const { scene, bench } = this.sheet;
     if (this.link) {
       this.follow(spot);
