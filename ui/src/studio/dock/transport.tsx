@@ -33,9 +33,12 @@ export function TimeLine({ bench }: { bench: Bench }) {
   );
 }
 
+/** Whether the present text is being solved. */
+const waiting = ({ desk }: Bench) => desk.text.value !== "" && desk.solved.value.text !== desk.text.value && !desk.gone.value;
+
 /** A thin bar while the text is being solved for longer than a moment. */
 function Busy({ bench }: { bench: Bench }) {
-  const { desk } = bench, [busy, setBusy] = useState(false), waits = desk.text.value !== "" && desk.solved.value.text !== desk.text.value && !desk.gone.value;
+  const [busy, setBusy] = useState(false), waits = waiting(bench);
   useEffect(() => {
     if (!waits) return setBusy(false);
     const timer = setTimeout(() => setBusy(true), PATIENCE);
@@ -53,7 +56,7 @@ function Idle({ bench, session }: { bench: Bench; session: Session | null }) {
   return (
     <>
       <button class="play" disabled aria-label={bench.page.say("play")}><Icon name="play" /></button>
-      {session ? <span>{bench.page.say("static")}</span> : driven ? <span class="why">{wrong}</span> : (
+      {session ? <span>{bench.page.say("static")}</span> : !outline && waiting(bench) ? <span>{bench.say("dock.solving")} …</span> : driven ? <span class="why">{wrong}</span> : (
         <span class="undriven">
           {before}
           <button class="word" onClick={() => (bench.tool.value = "drive")}><Icon name="drive" /><b>{bench.say("dock.drive")}</b><kbd>D</kbd></button>
