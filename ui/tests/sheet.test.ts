@@ -35,6 +35,10 @@ test("the camera leads to the screen and back, and what is at a place stays ther
   camera.fit([-1, 0, 1, 0.5], 50);
   allNear(camera.screen([-1, 0.25]), [50, 350], 1e-9);
   allNear(camera.screen([1, 0.25]), [950, 350], 1e-9);
+  // 100 px more at the left and 40 at the foot.
+  camera.fit([-1, 0, 1, 0.5], 50, [100, 0, 0, 40]);
+  allNear(camera.screen([-1, 0.25]), [150, 330], 1e-9);
+  allNear(camera.screen([1, 0.25]), [950, 330], 1e-9);
 });
 
 test("lines of the grid are 1, 2 or 5 times a power of ten apart, never closer than can be told apart", () => {

@@ -30,10 +30,10 @@ export class Camera {
     this.origin = [this.origin[0] + dx, this.origin[1] + dy];
   }
 
-  /** Puts a box (m) into the picture, with margins in pixels. */
-  fit([left, low, right, high]: [number, number, number, number], margin = 56): void {
-    const [w, h] = this.size, wide = Math.max(right - left, 1e-6), tall = Math.max(high - low, 1e-6);
+  /** Puts a box (m) into the picture, with a margin in pixels and what each side (left, top, right, bottom) needs beyond it. */
+  fit([left, low, right, high]: [number, number, number, number], margin = 56, more: readonly [number, number, number, number] = [0, 0, 0, 0]): void {
+    const w = Math.max(this.size[0] - more[0] - more[2], 4 * margin), h = Math.max(this.size[1] - more[1] - more[3], 4 * margin), wide = Math.max(right - left, 1e-6), tall = Math.max(high - low, 1e-6);
     this.scale = Math.min(MOST, Math.max(LEAST, Math.min((w - 2 * margin) / wide, (h - 2 * margin) / tall)));
-    this.origin = [w / 2 - (this.scale * (left + right)) / 2, h / 2 + (this.scale * (low + high)) / 2];
+    this.origin = [more[0] + w / 2 - (this.scale * (left + right)) / 2, more[1] + h / 2 + (this.scale * (low + high)) / 2];
   }
 }

@@ -20,7 +20,8 @@ export function drawLoadMarks(sheet: Sheet, over: Overlay): void {
     if (stand.session) anchor(over, each, stand);
     const item = { kind: "load" as const, name: each.name }, on = bench.has(item), hot = bench.hovered.value?.kind === "load" && bench.hovered.value.name === each.name;
     drawOne(over, each, on || hot, stand.session !== null);
-    label(over, each, stand, on);
+    const label = labelOf(each, stand);
+    if (label) over.text(label.at, label.text, `${label.style}${on ? " strong" : ""}`);
   }
   weights(sheet, over, stand);
 }
@@ -76,20 +77,40 @@ export function between(form: DrawnLoad["form"], from: Vec, to: Vec): string {
   return line([from, away(from, u, 6)]) + line(box.map(([x, y]) => away(from, u, x, y)), true) + rod;
 }
 
-/** The size of a load, with a name that a person has given. */
-function label(over: Overlay, load: DrawnLoad, stand: Stand, on: boolean): void {
+/** The size of a load, with a name that a person has given, and where it stands; null: nothing is to be said. */
+function labelOf(load: DrawnLoad, stand: Stand): { at: Vec; text: string; style: string } | null {
   const { name, form, from, to, size, acts } = load, called = GIVEN.test(name) ? "" : `${name} `, solved = stand.force(name, stand.loads[name])?.force;
   const constant = stand.loads[name].magnitude, push = stand.loads[name].preload, now = (form === "gas" || form === "cylinder") && push ? force(Math.abs(push)) : form === "arrow" && solved ? force(Math.hypot(...solved)) : size;
-  const text = `${called}${form === "arrow" && !acts ? (typeof constant === "number" ? `(${force(Math.abs(constant))})` : "") : now}`.trim().replace(" -", " −"), style = on ? " strong" : "";
-  if (!text) return;
+  const text = `${called}${form === "arrow" && !acts ? (typeof constant === "number" ? `(${force(Math.abs(constant))})` : "") : now}`.trim().replace(" -", " −");
+  if (!text) return null;
   if (form !== "arrow") {
     const [x, y] = [(from[0] + to[0]) / 2, (from[1] + to[1]) / 2], round = form === "arc" || form === "ring" || form === "twist";
-    return over.text([x + (round ? ROUND + 5 : 14), y + (round ? -ROUND : 4)], text, `${round ? "load" : "soft"} start${style}`);
+    return { at: [x + (round ? ROUND + 5 : 14), y + (round ? -ROUND : 4)], text, style: `${round ? "load" : "soft"} start` };
   }
   const [u, v] = unit(from, to), flat = Math.abs(u) > 0.8;
   // Above the arrow, from its head on outwards: there is room where the load comes from.
-  if (flat) over.text([to[0] - 6 * Math.sign(u), to[1] - 8 - Math.abs(v) * 30], text, `load ${u > 0 ? "end" : "start"}${style}`);
-  else over.text([from[0] + (u <= 0 ? 8 : -8), from[1] + (v > 0 ? -2 : 10)], text, `load ${u <= 0 ? "start" : "end"}${style}`);
+  if (flat) return { at: [to[0] - 6 * Math.sign(u), to[1] - 8 - Math.abs(v) * 30], text, style: `load ${u > 0 ? "end" : "start"}` };
+  return { at: [from[0] + (u <= 0 ? 8 : -8), from[1] + (v > 0 ? -2 : 10)], text, style: `load ${u <= 0 ? "start" : "end"}` };
+}
+
+// Of letters of labels: about how wide they are (of Chinese ones as well) and how far they rise and sink, px.
+const WIDTH = 6.7, SQUARE = 13, RISE = 12, SINK = 4;
+
+/** The box of all loads with their labels on the screen: left, top, right, bottom; null where none is drawn. */
+export function loadsBox({ bench, camera, stand }: Sheet): [number, number, number, number] | null {
+  const xs: number[] = [], ys: number[] = [];
+  for (const each of bench.shows("loads") ? drawnLoads(stand, camera) : []) {
+    const round = each.form === "arc" || each.form === "ring" || each.form === "twist" ? ROUND : 0, label = labelOf(each, stand);
+    for (const [x, y] of [each.from, each.to]) {
+      xs.push(x - round, x + round);
+      ys.push(y - round, y + round);
+    }
+    if (!label) continue;
+    const { at: [x, y], text, style } = label, wide = Array.from(text, (letter) => (letter > "\u2e80" ? SQUARE : WIDTH)).reduce((sum, one) => sum + one, 0);
+    xs.push(x, style.endsWith("end") ? x - wide : x + wide);
+    ys.push(y - RISE, y + SINK);
+  }
+  return xs.length ? [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)] : null;
 }
 
 /** Weights of links from their mass centres, where there is gravity. */

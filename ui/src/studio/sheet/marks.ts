@@ -2,7 +2,7 @@
 import type { Vec } from "../../shapes";
 import { away, far, hull, line, unit as along } from "../../strokes";
 import type { Item } from "../bench";
-import { reads } from "../tools/typed";
+import { exactly, reads, typed } from "../tools/typed";
 import { dist } from "./geometry";
 import type { Pencil } from "./overlay";
 import type { Board } from "./sheet";
@@ -69,8 +69,18 @@ export function lengths(board: Board): Length[] {
     const ends = corners.map((each) => camera.screen(each)) as [Vec, Vec];
     if (far(...ends) < LEAST) return [];
     const hand = moved || bench.has({ kind: "link", name: link }) || bench.has({ kind: "dimension", name: `${link}.length` });
-    return [{ link, ends, side: sideOf(board, link), text: reads(dist(corners[0], corners[1]), "length", unit), hand }];
+    return [{ link, ends, side: sideOf(board, link), text: moved || board.lifted ? reads(dist(corners[0], corners[1]), "length", unit) : lengthText(board, link, corners), hand }];
   });
+}
+
+/** A length as the file has it, where it does; else as it is drawn. */
+function lengthText({ bench, solved }: Board, link: string, [a, b]: Vec[]): string {
+  const { unit } = bench.settings.value, entry = bench.desk.solved.value.outline?.entries.links, own = typeof entry === "object" && !Array.isArray(entry) ? entry[link] : undefined;
+  const length = typeof own === "object" && !Array.isArray(own) ? own.length : undefined, written = typeof length === "string" ? typed(length, "length")?.value : undefined;
+  const now = solved?.model.values[`${link}.length`] ?? written;
+  if (now === undefined) return reads(dist(a, b), "length", unit);
+  // What is tried out on the machine is in steps of a hand; what is written has its own digits.
+  return written !== undefined && Math.abs(now - written) <= 1e-9 * written ? exactly(written, unit) : reads(now, "length", unit);
 }
 
 /** Strokes of lengths and their texts, which names keep clear of. */

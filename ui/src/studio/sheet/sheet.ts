@@ -17,6 +17,7 @@ import { heading } from "./geometry";
 import { Grid, spacing } from "./grid";
 import { FINGER, NEAR, under } from "./hits";
 import { type DrawnLoad, drawnLoads, Stand } from "./loads";
+import { loadsBox } from "./load_marks";
 import { drawMarks, inkOf, lengths, type Placed } from "./marks";
 import { pointWords, spoken } from "./names";
 import { Pencil } from "./overlay";
@@ -28,6 +29,8 @@ import { REACH, snap } from "./snap";
 const STAYS = new Set<ToolName>(["move", "target", "photo", "erase"]);
 /** Tools that put something where the pointer snaps to. */
 const PLACING = new Set<ToolName>(["pivot", "link", "plate", "slider", "slot", "force", "spring", "cam"]);
+/** Room between loads and the edges of the sheet that is seen whole, px; the share of what is missing that a step makes room for. */
+const EDGE = 8, STEP = 0.75;
 /** How often a tool is used until its hint goes. */
 const KNOWN = 3;
 
@@ -334,9 +337,22 @@ export class Board implements Sheet {
   fit(): void {
     const { camera, base, broken } = this, gap = this.bench.gap.value;
     const own = base && this.view && !broken ? around(this.view.box, this.scene.box) : this.scene.box, box = gap && (broken || !gap.drawn) ? boxOf(gap, own) : own;
-    if (box) camera.fit(box, Math.min(96, 0.14 * Math.min(...camera.size)));
+    if (box) this.fitWithLoads(box, Math.min(96, 0.14 * Math.min(...camera.size)));
     else [camera.scale, camera.origin] = [FULL, [Math.round(0.4 * camera.size[0]), Math.round(0.6 * camera.size[1])]];
     this.touch();
+  }
+
+  /** Puts a box into the sheet so that loads with their labels, which are as large at any scale, are in it, too. */
+  private fitWithLoads(box: [number, number, number, number], margin: number): void {
+    const { camera } = this, [w, h] = camera.size, more: [number, number, number, number] = [0, 0, 0, 0];
+    camera.fit(box, margin);
+    // Loads go along with their points as the scale changes: step by step, so that no more room is taken than is needed.
+    for (let k = 0; k < 6; k++) {
+      const loads = this.broken ? null : loadsBox(this), over = loads ? [EDGE - loads[0], EDGE - loads[1], loads[2] - w + EDGE, loads[3] - h + EDGE] : [];
+      if (!over.some((each) => each > 0.5)) return;
+      over.forEach((each, side) => (more[side] += STEP * Math.max(0, each)));
+      camera.fit(box, margin, more);
+    }
   }
 
   fitSelection(): void {

@@ -69,6 +69,12 @@ export function shown(value: number, quantity: Quantity, unit: Settings["unit"] 
   return [(text === "-0" ? "0" : text || "0").replace("-", "−"), symbol === "deg" ? "°" : symbol];
 }
 
+/** A length as it reads on the sheet with all digits that make sense. */
+export function exactly(value: number, unit: Settings["unit"]): string {
+  const [symbol, factor] = unitOf("", "length", unit) ?? ["", 1];
+  return `${(value / factor).toFixed({ mm: 3, cm: 4, m: 6, in: 4 }[symbol] ?? 4).replace(/\.?0+$/, "").replace("-", "−")} ${symbol}`;
+}
+
 /** A length or angle as it reads on the sheet. */
 export function reads(value: number, quantity: Quantity, unit: Settings["unit"] = "mm"): string {
   const [number, symbol] = shown(value, quantity, unit);
