@@ -97,6 +97,9 @@ def test_commands_are_found_by_their_words_and_a_model_comes_and_goes_in_a_link(
         packed = link.partition("#model=")[2]
         content = zlib.decompress(base64.urlsafe_b64decode(packed + "=" * (-len(packed) % 4)), -15)
         assert content.decode() == press.read_text() and "token" not in link
+        shown.button("studio.share.command").click()
+        tab.wait_for_function("() => bench.shared.value?.copied === 'command'")
+        assert tab.evaluate("() => navigator.clipboard.readText()") == f'linkwright studio "#model={packed}"'
         text, changed = shown.text, press.read_text().replace("1 m", "1.2 m")
         packer = zlib.compressobj(wbits=-15)
         packed = base64.urlsafe_b64encode(packer.compress(changed.encode()) + packer.flush()).decode().rstrip("=")

@@ -91,8 +91,8 @@ export class Bench {
   readonly dialog = signal<Dialog | null>(null);
   /** Whether the name of the file is being edited in its place. */
   readonly renaming = signal(false);
-  /** The link that was made last, while it is shown. */
-  readonly shared = signal<{ link: string; copied: boolean } | null>(null);
+  /** The link that was made last, while it is handed on: itself or the command with it as it is shown, and which is in the clipboard. */
+  readonly shared = signal<{ link: string; shown: string; copied: "link" | "command" | "" } | null>(null);
   readonly settings = signal<Settings>(stored());
   /** Where the pointer or the cross is, m; null: not on the sheet. */
   readonly cursor = signal<Vec | null>(null);

@@ -98,12 +98,17 @@ FILES: dict[str, Message] = {
 SHARE: dict[str, Message] = {
     "share": _("Share"),
     "share.copied": _("Link copied"),
-    "share.copy": _("Copy this link"),
+    "share.copy": _("Copy this"),
     "share.link": _("Link with the whole drawing"),
+    "share.command_link": _("Command with the whole drawing"),
     "share.help": _(
-        "It holds the whole drawing; nothing is uploaded. It opens in any studio: File, "
-        "Open a shared link, or drop it on the sheet."
+        "The link holds the whole drawing; nothing is uploaded. It opens in any studio, not in a browser "
+        "alone: File, Open a shared link, or drop it on the sheet."
     ),
+    "share.command": _("Copy the command"),
+    "share.command_copied": _("Command copied"),
+    "share.command_help": _("Starts a studio with this drawing, from a terminal"),
+    "share.page_help": _("A file that any browser opens, without a studio"),
     "share.long": _("It has {count} characters; some programs cut links above 2000."),
     "export": _("Export"),
     "export.making": _("Exporting…"),

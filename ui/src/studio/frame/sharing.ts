@@ -2,16 +2,26 @@
 import { holdsModel, LONG, modelOf, shareLink } from "../../share";
 import type { Bench } from "../bench";
 
-/** Copies a link with the model in it, and says how long it is where that matters. */
+/** Copies a link with the model in it. */
 export async function share(bench: Bench): Promise<void> {
   const link = await shareLink(bench.desk.text.value, `${location.origin}/`);
-  let copied = true;
+  bench.shared.value = { link, shown: link, copied: (await copy(link)) ? "link" : "" };
+}
+
+/** Copies the command that opens the model of a link in a studio; shows it where it cannot be copied. */
+export async function shareCommand(bench: Bench, link: string): Promise<void> {
+  // These quotes are taken by every shell.
+  const command = `linkwright studio "${link.slice(link.indexOf("#"))}"`;
+  bench.shared.value = { link, shown: command, copied: (await copy(command)) ? "command" : "" };
+}
+
+async function copy(text: string): Promise<boolean> {
   try {
-    await navigator.clipboard.writeText(link);
+    await navigator.clipboard.writeText(text);
+    return true;
   } catch {
-    copied = false;
+    return false;
   }
-  bench.shared.value = { link, copied };
 }
 
 export const long = (link: string) => link.length > LONG;
