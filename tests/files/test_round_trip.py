@@ -284,6 +284,7 @@ def test_the_schema_names_every_section_and_is_plain_json() -> None:
         "mass",
         "inertia",
         "mass_centre",
+        "colour",
     }
 
 

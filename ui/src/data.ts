@@ -103,6 +103,8 @@ export interface Glyph {
   toothed?: boolean;
   inside?: boolean;
   crossed?: boolean;
+  /** Of the link: #rrggbb. */
+  colour?: string;
 }
 
 /** `rate`: the row of the joint's rate, zero at rest; `on`: links whose reactions add up to the size of that on b; `arm`: friction over the pressing force. */

@@ -16,6 +16,13 @@ export function element(tag: string, attributes: Record<string, string | number>
   return made;
 }
 
+/** Gives a bar or a plate a colour of its own; style sheets make it legible. */
+export function tint(of: SVGElement, colour?: string): void {
+  if (!colour) return;
+  of.classList.add("own");
+  of.style.setProperty("--own", colour);
+}
+
 export const tenth = (x: number) => Math.round(10 * x) / 10;
 export const line = (points: Vec[], closed = false) =>
   points.map(([x, y], k) => `${k ? "L" : "M"}${tenth(x)} ${tenth(y)}`).join("") + (closed && points.length ? "Z" : "");

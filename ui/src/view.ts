@@ -7,7 +7,7 @@ import { Names } from "./names";
 import { colours, painted } from "./palette";
 import { amount, Shapes, type Vec } from "./shapes";
 import {
-  arrow, away, DEEP, dashpot, element, far, FINEST, hull, line, PITCH, place, put, round, strand, TALL, thinned, TOOTH, toothed, unit, VECTOR, zigzag,
+  arrow, away, DEEP, dashpot, element, far, FINEST, hull, line, PITCH, place, put, round, strand, TALL, thinned, tint, TOOTH, toothed, unit, VECTOR, zigzag,
 } from "./strokes";
 
 const LAYERS = ["ground", "paths", "bodies", "blocks", "pins", "tops", "marks", "vectors", "names", "handles"];
@@ -220,14 +220,19 @@ export class View {
   private glyph(glyph: Glyph, number: number): () => void {
     const layer = this.layers[glyph.layer];
     const path = (style: string) => element("path", { class: style }, layer);
+    const body = (style: string) => {
+      const made = path(style);
+      tint(made, glyph.colour);
+      return made;
+    };
     switch (glyph.kind) {
       case "stamp": return this.stamp(glyph, layer);
       case "bar": {
-        const bar = path("lw-bar");
+        const bar = body("lw-bar");
         return () => put(bar, "d", this.stroke(glyph.points!.map((key) => this.at(key))));
       }
       case "plate": {
-        const plate = path("lw-plate");
+        const plate = body("lw-plate");
         return () => put(plate, "d", this.stroke(hull(glyph.points!.map((key) => this.at(key))), true));
       }
       case "spring": {
@@ -239,21 +244,21 @@ export class View {
         return () => put(damper, "d", dashpot(this.at(glyph.points![0]), this.at(glyph.points![1])));
       }
       case "passing": {
-        const bar = path("lw-bar");
+        const bar = body("lw-bar");
         return () => {
           const [a, b] = glyph.points!.map((key) => this.at(key)), at = this.at(glyph.at!), u = unit(a, b);
           put(bar, "d", this.stroke([away(at, u, -glyph.length!), away(at, u, glyph.length!)]));
         };
       }
       case "stub": {
-        const bar = path("lw-bar");
+        const bar = body("lw-bar");
         return () => {
           const at = this.at(glyph.at!);
           put(bar, "d", this.stroke([at, away(at, this.way(`d:${glyph.joint}`), glyph.shift!)]));
         };
       }
       case "rail": return this.rail(glyph, path("lw-ground"), path("lw-hatch"));
-      case "rod": return this.rod(glyph, path("lw-bar"));
+      case "rod": return this.rod(glyph, body("lw-bar"));
       case "cylinder": return this.cylinder(glyph, path("lw-bar"), path("lw-block"));
       case "wheel": return this.wheel(glyph, number, layer);
       case "rack": return this.rack(glyph, layer);

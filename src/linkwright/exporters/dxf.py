@@ -14,6 +14,7 @@ from linkwright.core.arrays import Floats
 from linkwright.errors import RequestError
 from linkwright.exporters.export import package
 from linkwright.exporters.results import Results
+from linkwright.fields.colour import as_rgb
 from linkwright.pictures.fonts import needs_chinese
 from linkwright.pictures.labels import Candidate, Label, Obstacles, place, text_of
 from linkwright.pictures.picture import CAPITAL, Circle, Item, Line, Text, Vec, unbroken
@@ -47,7 +48,7 @@ def content_of(document: Any) -> bytes:
     return bytes(document.encode(stream.getvalue()))
 
 
-def add(space: Any, item: Item, layer: str, **attributes: str) -> None:
+def add(space: Any, item: Item, layer: str, **attributes: str | int) -> None:
     """An item of a picture as a line, a polyline, a circle or a text on a layer."""
     dxf_attributes = {"layer": layer, **attributes}
     if isinstance(item, Text):
@@ -131,7 +132,8 @@ class Sheet:
         """Supports, links, blocks and pins."""
         for part in self.scene.parts:
             if part.layer == "bodies":  # exact lines
-                items: Iterable[Line | Circle] = map(Line, part.shape.ink)
+                colour = as_rgb(self.results.mechanism.link(part.carrier).colour)
+                items: Iterable[Line | Circle] = [Line(line, colour=colour) for line in part.shape.ink]
             elif part.layer in _OF_PART:
                 items = part.shape.elements
             else:
@@ -229,7 +231,8 @@ class Sheet:
         machine = self.scene.machine
         x, y, turn = machine.view.transform(machine.placed[carrier], self.index)
         at = item.placed(np.array([x, y]), math.radians(turn)).placed(np.zeros(2), scale=(self.unit, -self.unit))
-        add(self.space, at, layer)
+        colour = at.colour if isinstance(at, Line) else ""
+        add(self.space, at, layer, **({"true_color": int(colour[1:], 16)} if colour else {}))
 
     def _pins(self) -> None:
         """Circles at pins, of the pin's radius where it is given; small ones at other points."""

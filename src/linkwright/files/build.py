@@ -68,11 +68,13 @@ class Model:
         mass: Value | None = None,
         inertia: Value | None = None,
         mass_centre: Pair | str | None = None,
+        colour: str | None = None,
     ) -> None:
-        """A moving link; the keys are those of a file: m, rad, kg, kg·m². ``mass_centre``: (x, y) or a point."""
+        """A moving link; the keys are those of a file: m, rad, kg, kg·m². ``mass_centre``: (x, y) or a point;
+        ``colour``: a name or #rrggbb."""
         listed = points if isinstance(points, Mapping) else one_or_more(points)
         sizes = _present(length=length, lengths=lengths, angle=angle, also=also)
-        masses = _present(mass=mass, inertia=inertia, mass_centre=mass_centre)
+        masses = _present(mass=mass, inertia=inertia, mass_centre=mass_centre, colour=colour)
         self._section("links", name, {"points": listed, **sizes, **masses})
 
     def joint(self, name: str, kind: str, **fields: Any) -> None:

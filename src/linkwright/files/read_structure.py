@@ -203,6 +203,7 @@ def _read_link(reader: Reader, node: Node, name: str, drawing: Mapping[str, Vec]
         values.get("mass") or 0.0,
         values.get("inertia") or 0.0,
         centre,
+        values.get("colour") or "",
     )
 
 

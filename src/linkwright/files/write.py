@@ -75,7 +75,7 @@ def _link(link: Link, texts: Mapping[str, str], drawn: Mapping[str, Vec]) -> Pla
     sizes: Plain = {"lengths": link.lengths, "angle": link.angle} if link.geometry == "bent" else {}
     if link.geometry == "length":
         sizes = {"length": link.lengths[0]}
-    mass_values = {key: getattr(link, key) for key in ("mass", "inertia", "mass_centre")}
+    mass_values = {key: getattr(link, key) for key in ("mass", "inertia", "mass_centre", "colour")}
     sizes |= {key: value for key, value in mass_values.items() if value or f"{link.name}.{key}" in texts}
     written = {key: LINK_FIELDS[key].written(value) for key, value in sizes.items()}
     found = {"points": points, **_substituted(written, link.name, texts)}

@@ -9,6 +9,7 @@ from functools import cached_property
 from typing import Any, Literal, TypeVar
 
 from linkwright.fields.base import Field, Quantities, Quantity
+from linkwright.fields.colour import Colour
 from linkwright.fields.references import Coordinates, LinkPoints, PlaceOrPoint
 from linkwright.words import _
 
@@ -26,6 +27,7 @@ LINK_FIELDS: Mapping[str, Field] = {
     "mass": Quantity("mass", minimum=0, doc=_("mass (default 0)")),
     "inertia": Quantity("inertia", minimum=0, doc=_("moment of inertia about the mass centre (default 0)")),
     "mass_centre": PlaceOrPoint("length", ("x", "y"), doc=_("mass centre: [x, y] or a point (default: midway)")),
+    "colour": Colour(doc=_('colour of the link in drawings: a name, or "#rrggbb" (default: that of all lines)')),
 }
 FRAME_FIELDS: Mapping[str, Field] = {
     "points": Coordinates(required=True, doc=_("fixed points: {{O1: [0 m, 0 m], …}}"))
@@ -41,7 +43,8 @@ class Link:
     ``coordinates``, ``drawing`` (from the coordinates of an assembled drawing), ``point`` (one point, at
     the origin).
     ``points`` holds all points in order, those of ``also`` last. ``mass_centre`` may name one of them;
-    None means the default: midway between the first two points, or at the only one.
+    None means the default: midway between the first two points, or at the only one. ``colour``: in which it is
+    drawn, a name or #rrggbb; empty for that of all lines.
     """
 
     name: str
@@ -52,6 +55,7 @@ class Link:
     mass: float = 0.0
     inertia: float = 0.0
     mass_centre: Vec | str | None = None
+    colour: str = ""
 
     def fields(self) -> Mapping[str, Field]:
         """What a file may say about the link."""
@@ -117,7 +121,7 @@ class Link:
         if isinstance(centre, tuple):
             centre = value(f"{name}.mass_centre.x"), value(f"{name}.mass_centre.y")
         mass, inertia = value(f"{name}.mass"), value(f"{name}.inertia")
-        return Link(name, self.geometry, moved, lengths, angle, mass, inertia, centre)
+        return Link(name, self.geometry, moved, lengths, angle, mass, inertia, centre, self.colour)
 
 
 def local_points(

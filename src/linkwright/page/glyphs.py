@@ -19,6 +19,7 @@ import numpy as np
 from linkwright.applied_loads.base import Load
 from linkwright.core.data import Plain
 from linkwright.core.outputs import row_name
+from linkwright.fields.colour import as_rgb
 from linkwright.joints.base import Joint
 from linkwright.joints.belt import BeltPair
 from linkwright.joints.cam import CamJoint
@@ -65,10 +66,15 @@ def _links(machine: DrawnMechanism) -> Iterator[Plain]:
         keys = [key_of(machine, link.name, point) for point in link.points]
         ends = _ends(machine, link)
         if ends is None:
-            yield {"kind": "plate", "layer": "bodies", "points": keys}
+            yield {"kind": "plate", "layer": "bodies", "points": keys, **_colour(link)}
         elif len(ends) == _LENGTHS:
-            yield {"kind": "bar", "layer": "bodies", "points": [keys[end] for end in ends]}
+            yield {"kind": "bar", "layer": "bodies", "points": [keys[end] for end in ends], **_colour(link)}
     yield from (_tied(machine, part) for part in bodies(machine) if part.layer == "pins")
+
+
+def _colour(link: Link) -> Plain:
+    """The colour of a link's bars and plates, where it has one."""
+    return {"colour": as_rgb(link.colour)} if link.colour else {}
 
 
 def _ends(machine: DrawnMechanism, link: Link) -> list[int] | None:
@@ -102,9 +108,11 @@ def _guides(machine: DrawnMechanism) -> Iterator[Plain]:
                 **ends,
                 "reach": [*reach, *([through] if carried or joint.offset else [])],
                 "tie": through,
+                **_colour(machine.motion.mechanism.link(joint.guide)),
             }
         if shift:
-            yield {"kind": "stub", "layer": "bodies", **ends, "shift": shift}
+            own = _colour(machine.motion.mechanism.link(joint.block))
+            yield {"kind": "stub", "layer": "bodies", **ends, "shift": shift, **own}
         yield _stamp("blocks", ends["at"], row_name("guide_direction", name), SYMBOLS["slider"](), shift=shift)
 
 
@@ -129,6 +137,7 @@ def _pins(machine: DrawnMechanism) -> Iterator[Plain]:
                     "at": name,
                     "points": [keys[end] for end in ends],
                     "length": 1.3 * PIN,
+                    **_colour(machine.motion.mechanism.link(link)),
                 }
 
 

@@ -49,6 +49,8 @@ CSS = "".join(
         f".lw-bar,.lw-spring{{fill:none;stroke:{INK};stroke-linecap:round;stroke-linejoin:round}}",
         f".lw-bar{{stroke-width:{LINE}}}.lw-spring{{stroke-width:1.5}}",
         f".lw-plate{{fill:#c3d5e8;fill-opacity:.6;stroke:{INK};stroke-width:2;stroke-linejoin:round}}",
+        f".lw-bar-coloured,.lw-plate-coloured{{stroke-width:{LINE};stroke-linecap:round;stroke-linejoin:round}}",
+        ".lw-plate-coloured{fill-opacity:.25}",
         f".lw-block{{fill:#f3f6f9;stroke:{INK};stroke-width:2;stroke-linejoin:round}}",
         f".lw-pin,.lw-mass-ring{{fill:#fff;stroke:{INK};stroke-width:1.8}}",
         f".lw-point,.lw-weld,.lw-mass{{fill:{INK}}}",

@@ -83,12 +83,13 @@ class Box:
 @dataclass(frozen=True)
 class Line:
     """A polyline (k, 2), a row of NaN breaks it; ``closed``: back to its start; ``style``: its kind of line, or the
-    class of what it is part of."""
+    class of what it is part of; ``colour``: #rrggbb in place of the colour of its kind, for bars and plates."""
 
     points: Floats
     style: str = "thin"
     closed: bool = False
     fill: Fill = ""
+    colour: str = ""
 
     def placed(self, shift: Floats, turn: float = 0.0, scale: Vec = (1.0, 1.0)) -> Line:
         """The same scaled, turned (rad, from x to y) and shifted."""
@@ -105,12 +106,15 @@ class Line:
         return np.vstack([self.points, self.points[:1]]) if self.closed else self.points
 
     def __str__(self) -> str:
-        return str(
-            element(
-                "path",
-                {"class": f"{self.style} {self.fill}".rstrip(), "d": path_data(self.points, closed=self.closed)},
-            )
-        )
+        attributes: dict[str, Attribute | None] = {
+            "class": f"{self.style} {self.fill}".rstrip(),
+            "d": path_data(self.points, closed=self.closed),
+        }
+        if self.colour:
+            # The rules of its kind would outdo the attributes.
+            own = {"stroke": self.colour, "fill": self.colour if self.closed else "none"}
+            attributes |= {"class": f"{self.style}-coloured", **own}
+        return str(element("path", attributes))
 
 
 @dataclass(frozen=True)

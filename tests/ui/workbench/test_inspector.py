@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from tests.ui.browser import needs_chromium
 from tests.ui.workbench.hand import Hand, hand
@@ -169,3 +170,54 @@ def test_numbers_stand_before_and_now(chromium: Any, tmp_path: Path) -> None:
         it.tab.wait_for_function("() => desk.text.value.includes('length: 60 mm')")
         it.settle()
         assert stroke.locator("td").all_inner_texts()[:2] == ["120", "120mm"]
+
+
+def painted(it: Inspecting) -> list[int]:
+    """The colour in which a bar with one of its own is painted."""
+    script = """() => {
+      const pen = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
+      pen.fillStyle = getComputedStyle(document.querySelector(".lw-bar.own")).stroke;
+      pen.fillRect(0, 0, 1, 1);
+      return [...pen.getImageData(0, 0, 1, 1).data].slice(0, 3);
+    }"""
+    found: list[int] = it.tab.evaluate(script)
+    return found
+
+
+def contrast(one: Sequence[int], other: Sequence[int]) -> float:
+    """The contrast of two colours after WCAG 2."""
+
+    def luminance(colour: Sequence[int]) -> float:
+        parts = [x / 3294.6 if x <= 10 else ((x / 255 + 0.055) / 1.055) ** 2.4 for x in colour]
+        return float(np.dot([0.2126, 0.7152, 0.0722], parts))
+
+    low, high = sorted(map(luminance, (one, other)))
+    return (high + 0.05) / (low + 0.05)
+
+
+def test_a_link_has_a_colour_of_its_own(chromium: Any, tmp_path: Path) -> None:
+    """By a swatch, by keys and by any colour; the sheet draws it, and the usual one takes it out of the file."""
+    with inspecting(chromium, tmp_path, PRESS) as it:
+        it.select("link", "rod")
+        swatch = it.tab.get_by_role("radio", name=it.translate("studio.insp.colour_blue"))
+        swatch.click()
+        it.settle()
+        assert it.entries["links"]["rod"]["colour"] == "blue"
+        it.select("link", "crank")
+        assert painted(it) == pytest.approx([47, 111, 143], abs=1)
+        it.select("link", "rod")
+        swatch.focus()
+        for key in ("ArrowRight", "ArrowRight", "Enter"):
+            it.tab.keyboard.press(key)
+        it.settle()
+        assert it.entries["links"]["rod"]["colour"] == "purple"
+        it.tab.locator(".swatches input").fill("#123456")
+        it.settle()
+        assert it.entries["links"]["rod"]["colour"] == "#123456"
+        it.tab.evaluate("() => bench.set({ theme: 'dark' })")
+        assert contrast(painted(it), (0x12, 0x17, 0x18)) > 3
+        it.tab.get_by_role("radio", name=it.translate("studio.insp.colour_none")).click()
+        it.settle()
+        assert "colour" not in it.entries["links"]["rod"]
+        assert it.tab.locator(".own.lw-bar").count() == 0
+        assert it.errors == []

@@ -21,7 +21,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.pictures.diagram import INK, Axes, Figure
 from linkwright.pictures.labels import Label, Obstacles, place
-from linkwright.pictures.picture import Circle, round_up
+from linkwright.pictures.picture import Circle, Line, round_up
 from linkwright.pictures.svg import split_index
 from linkwright.pictures.symbols.base import SYMBOLS, vec
 from linkwright.plotting.diagrams.axes import InputAxis, Unit
@@ -359,17 +359,19 @@ def draw_machine(names: Names, motion: Motion, index: int, *, factor: float) -> 
     for number, (_, item) in enumerate(scene.items(index)):
         line, order = item.outline * to_axes, 1.5 + 1e-4 * number
         thick = item.style in ("lw-bar", "lw-plate")
+        own = item.colour if isinstance(item, Line) else ""
         if item.style == "lw-pitch":
             dash: tuple[int, tuple[float, ...]] = (0, (8, 2, 1.5, 2))
         else:
             dash = (0, ())
         if isinstance(item, Circle) or item.closed:
             colour, alpha = _FILLS.get(item.style, ("white", 1.0))
+            colour = own or colour
             if item.style != "lw-pitch":
                 axes.fill(*line.T, color=colour, alpha=alpha, linewidth=0, zorder=order)
         axes.plot(
             *line.T,
-            color=LINK if thick else INK,
+            color=own or (LINK if thick else INK),
             linewidth=1.6 if thick else 0.7,
             linestyle=dash,
             solid_capstyle="round",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import singledispatch
 from typing import Literal
 
@@ -22,7 +22,7 @@ from linkwright.joints.lower_pair import SlidingJoint, TurningJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import Placement
 from linkwright.mechanism.link import Link
-from linkwright.pictures.picture import Vec
+from linkwright.pictures.picture import Line, Vec
 from linkwright.pictures.symbols.base import PIN, SYMBOLS, Shape, points
 from linkwright.words import _
 
@@ -108,6 +108,17 @@ class Part:
     layer: Layer
     carrier: str
     shape: Shape
+
+
+def coloured(part: Part, colour: str) -> Part:
+    """A part whose bars and plates have a colour; its symbols keep theirs."""
+    if part.layer not in ("bodies", "tops"):
+        return part
+    elements = (
+        replace(each, colour=colour) if isinstance(each, Line) and each.style in ("lw-bar", "lw-plate") else each
+        for each in part.shape.elements
+    )
+    return replace(part, shape=replace(part.shape, elements=tuple(elements)))
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.errors import LinkwrightError
 from linkwright.events.limit_positions import LimitPosition
+from linkwright.fields.colour import as_rgb
 from linkwright.joints.lower_pair import SlidingJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import placements, with_placements_of
@@ -30,6 +31,7 @@ from linkwright.plotting.drawing.machine import (
     Part,
     View,
     bodies,
+    coloured,
     fitted,
     flat,
     moved,
@@ -129,7 +131,9 @@ def laid_out(
 
 def parts_of(machine: DrawnMechanism) -> list[Part]:
     """Wheels, bodies and joints."""
-    return [*wheels(machine), *bodies(machine), *guides(machine), *pins(machine), *welds(machine)]
+    parts = [*wheels(machine), *bodies(machine), *guides(machine), *pins(machine), *welds(machine)]
+    colours = {link.name: as_rgb(link.colour) for link in machine.motion.mechanism.links.values() if link.colour}
+    return [coloured(part, colours[part.carrier]) if part.carrier in colours else part for part in parts]
 
 
 def mass_centres(machine: DrawnMechanism) -> Iterator[Part]:

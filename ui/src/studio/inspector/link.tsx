@@ -7,6 +7,7 @@ import { at, isTable, loadsOn, type Path, pointsOf, type Table, table, word, wor
 import { Act, Chips, Lock, Quantity, Row, Section, Sentence, Typing } from "./fields";
 import { Head, Written } from "./head";
 import { LoadList } from "./loads_list";
+import { Look } from "./look";
 import { Mass } from "./mass";
 import { placeOf, useNow } from "./now";
 import { inUnit, si } from "./quantities";
@@ -33,6 +34,7 @@ export function LinkPanel({ bench, item, entries }: PanelProps) {
       </div>
       <Mass bench={bench} name={name} link={link} points={own} />
       {loads.length > 0 && <Section bench={bench} id="insp.loads_on" title={say("insp.loads_on")} count={loads.length}>{() => <LoadList bench={bench} entries={entries} names={loads} />}</Section>}
+      {own.length + also.length > 1 && <Look bench={bench} path={[...path, "colour"]} link={link} />}
       <div class="row-acts">
         <Act icon="split" act={() => void split(bench, name, own)} disabled={own.length < 2}>{say("insp.split")}</Act>
         <Act icon="mirror" act={() => void paste(bench, name, [0, 0], "x")}>{say("insp.mirror")}</Act>

@@ -290,7 +290,7 @@ export class Board implements Sheet {
     }
     const now = this.picture ?? null, bare = bareOf(this.scene), known = base && (base.added ?? (now?.loose?.length || bare.length ? now : null)), drawn = known && without(known, known.loose ?? [], bare);
     if (base && !drawn && !broken) sketch.clear();
-    else sketch.draw(this.stand, bench.desk.solved.value.outline?.entries.joints, camera, bench.shows("names"), broken ? null : drawn, ink);
+    else sketch.draw(this.stand, bench.desk.solved.value.outline?.entries, camera, bench.shows("names"), broken ? null : drawn, ink);
     this.seen = seen;
   }
 

@@ -2,10 +2,12 @@
 import { Names } from "../../names";
 import type { Picture } from "../picture";
 import type { Vec } from "../../shapes";
-import { element, hull, line } from "../../strokes";
+import { element, hull, line, tint } from "../../strokes";
+import { digitsOf } from "../colour";
 import type { Camera } from "./camera";
 import type { Stand } from "./loads";
 import type { Scene } from "./scene";
+import { at as entryAt, word } from "../inspector/entries";
 import type { Entry } from "../outline";
 import { drawPairs } from "./sketch_pairs";
 
@@ -29,7 +31,7 @@ export class Sketch {
   }
 
   /** All of a picture, or what another one has not; `taken`: strokes which names keep clear of, too. */
-  draw(stand: Stand, joints: Entry | undefined, camera: Camera, names: boolean, known: Picture | null, taken: number[]): void {
+  draw(stand: Stand, entries: { [key: string]: Entry } | undefined, camera: Camera, names: boolean, known: Picture | null, taken: number[]): void {
     const { scene } = stand, layer = this.layers;
     for (const name of LAYERS) if (name !== "names") layer[name].replaceChildren();
     const ink = [...taken], [w, h] = camera.size, labelled: string[] = [];
@@ -39,9 +41,10 @@ export class Sketch {
       const corners = scene.corners(name).map((each) => camera.screen(each)), wide = corners.length > 2;
       const around = wide ? hull(corners) : corners;
       inked(wide ? [...around, around[0]] : around);
-      element("path", { class: `${wide ? "lw-plate" : "lw-bar"}${name === scene.driver ? " driven" : ""}`, d: line(around, wide) }, layer.bodies);
+      const body = element("path", { class: `${wide ? "lw-plate" : "lw-bar"}${name === scene.driver ? " driven" : ""}`, d: line(around, wide) }, layer.bodies);
+      if (name !== scene.driver) tint(body, digitsOf(word(entryAt(entries?.links, name, "colour"))));
     }
-    if (!known) drawPairs(layer, stand, joints, camera);
+    if (!known) drawPairs(layer, stand, entries?.joints, camera);
     for (const { name, key, at, fixed, links } of scene.points.values()) {
       const old = known && name in known.points && known.fixed.includes(name) === fixed && known.guided.includes(name) === scene.guided.includes(name);
       if ((old && linksOf(known, name) === links.length) || covered(scene, name)) continue;
