@@ -31,6 +31,8 @@ const STAYS = new Set<ToolName>(["move", "target", "photo", "erase"]);
 const PLACING = new Set<ToolName>(["pivot", "link", "plate", "slider", "slot", "force", "spring", "cam"]);
 /** Room between loads and the edges of the sheet that is seen whole, px; the share of what is missing that a step makes room for. */
 const EDGE = 8, STEP = 0.75;
+// Room over what stands at the foot of the sheet, px, and the most of the sheet that is kept free for it.
+const FOOT = 20, FOOT_SHARE = 0.4;
 /** How often a tool is used until its hint goes. */
 const KNOWN = 3;
 
@@ -333,7 +335,7 @@ export class Board implements Sheet {
     this.zoom(FULL / this.camera.scale);
   }
 
-  /** Puts all of the drawing into the sheet. */
+  /** Puts all of the drawing into the sheet, clear of what stands at its foot. */
   fit(): void {
     const { camera, base, broken } = this, gap = this.bench.gap.value;
     const own = base && this.view && !broken ? around(this.view.box, this.scene.box) : this.scene.box, box = gap && (broken || !gap.drawn) ? boxOf(gap, own) : own;
@@ -344,8 +346,9 @@ export class Board implements Sheet {
 
   /** Puts a box into the sheet so that loads with their labels, which are as large at any scale, are in it, too. */
   private fitWithLoads(box: [number, number, number, number], margin: number): void {
-    const { camera } = this, [w, h] = camera.size, more: [number, number, number, number] = [0, 0, 0, 0];
-    camera.fit(box, margin);
+    const { camera } = this, [w, h] = camera.size, foot = this.host.parentElement?.querySelector<HTMLElement>(".sheet-foot")?.offsetHeight ?? 0;
+    const more: [number, number, number, number] = [0, 0, 0, Math.max(0, Math.min(foot + FOOT, FOOT_SHARE * h) - margin)];
+    camera.fit(box, margin, more);
     // Loads go along with their points as the scale changes: step by step, so that no more room is taken than is needed.
     for (let k = 0; k < 6; k++) {
       const loads = this.broken ? null : loadsBox(this), over = loads ? [EDGE - loads[0], EDGE - loads[1], loads[2] - w + EDGE, loads[3] - h + EDGE] : [];
