@@ -221,3 +221,19 @@ def test_a_link_has_a_colour_of_its_own(chromium: Any, tmp_path: Path) -> None:
         assert "colour" not in it.entries["links"]["rod"]
         assert it.tab.locator(".own.lw-bar").count() == 0
         assert it.errors == []
+
+
+def test_numbers_of_the_pane_follow_while_it_plays(chromium: Any, tmp_path: Path) -> None:
+    """They are written without a rendering: the elements stay, and at rest they are those of the position shown."""
+    with inspecting(chromium, tmp_path, PRESS) as it:
+        it.select("point", "A")
+        field = it.field("x")
+        before = field.input_value()
+        it.tab.evaluate("() => linkwright.play(true)")
+        it.tab.wait_for_function("([field, old]) => field.value !== old", arg=[field.element_handle(), before])
+        assert not field.is_editable()
+        it.tab.evaluate("() => { linkwright.play(false); linkwright.phase.value = 0.25; }")
+        it.tab.wait_for_timeout(300)
+        x, _ = it.point("A")
+        assert float(field.input_value().replace("−", "-")) == pytest.approx(1000 * x, abs=0.01)
+        assert it.errors == []

@@ -3,6 +3,7 @@ import type { ComponentChildren } from "preact";
 import { useEffect, useId, useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { Bench } from "../bench";
 import { Icon, type IconName } from "../frame/icons";
+import { useLive } from "./now";
 import { read, shownUnit, stepped, typed } from "./quantities";
 
 /** Rest after the last step by arrow keys before it is written, ms. */
@@ -43,6 +44,8 @@ export interface QuantityProps {
   set?: (text: string) => Promise<string | null>;
   /** It follows from others. */
   follows?: boolean;
+  /** Its value at a position, where it changes while the machine plays. */
+  live?: { bench: Bench; at: (index: number) => string };
   /** What holds where nothing is written. */
   preset?: string;
   /** Nothing may be in it. */
@@ -59,7 +62,7 @@ export function Quantity({ label, aside, ...rest }: QuantityProps) {
 }
 
 /** The field of a quantity alone. */
-export function Typing({ id, label, name, value, unit, set, follows = false, preset = "", optional = false }: Omit<QuantityProps, "aside"> & { id?: string }) {
+export function Typing({ id, label, name, value, unit, set, follows = false, live, preset = "", optional = false }: Omit<QuantityProps, "aside"> & { id?: string }) {
   const [draft, setDraft] = useState<string | null>(null), [fault, setFault] = useState(""), timer = useRef(0), own = useId();
   const shown = read(value), number = shown.number || value, own_unit = shown.number ? shown.unit : value ? "" : unit, field = useRef<HTMLInputElement>(null);
   const pending = useRef<(() => void) | null>(null), asked = useRef<string | null>(null), gone = useRef(false);
@@ -70,6 +73,10 @@ export function Typing({ id, label, name, value, unit, set, follows = false, pre
       setFault("");
     }
   }, [value]);
+  useLive(live?.bench, live && ((index) => {
+    const input = field.current, text = read(live.at(index)).number;
+    if (input && text && (!set || document.activeElement !== input)) input.value = text.replace(/^-/, "−");
+  }));
   const commit = async (text: string) => {
     window.clearTimeout(timer.current);
     if (!set) return;

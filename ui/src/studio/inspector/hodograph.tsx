@@ -9,10 +9,12 @@ export function HodographPlot({ bench, session, point, name }: { bench: Bench; s
   const host = useRef<HTMLDivElement>(null), { page } = bench;
   useLayoutEffect(() => {
     const drawn = new Hodograph(host.current!), { main } = session.model;
+    let seen = "";
     const stop = effect(() => {
-      void [session.version.value, page.phase.value];
+      const version = `${session.version.value} ${page.language.value}`;
       const [x, y] = ["x", "y"].map((axis) => main.row(`v:${point}.${axis}`)), index = page.index(session);
-      drawn.set(bench.say("insp.hodograph_of", { name }), x, y, session.data.positions.closed);
+      if (version !== seen) drawn.set(bench.say("insp.hodograph_of", { name }), x, y, session.data.positions.closed);
+      seen = version;
       drawn.cursor(x[index], y[index]);
     });
     return () => {

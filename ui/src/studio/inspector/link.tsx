@@ -1,4 +1,5 @@
 // A link or plate: its lengths, angle, points, mass, loads.
+import type { Vec } from "../../shapes";
 import { quantity } from "../../words";
 import type { Bench } from "../bench";
 import { Icon } from "../frame/icons";
@@ -114,14 +115,14 @@ function Angle({ bench, name, points, link }: { bench: Bench; name: string; poin
   if (!second) return null;
   const a = placeOf(bench, first, index), b = placeOf(bench, second, index);
   if (!a || !b) return null;
-  const radians = Math.atan2(b[1] - a[1], b[0] - a[0]), drawn = !session || index === session.data.drawing.at;
+  const angleOf = (from: Vec, to: Vec) => `${inUnit(Math.atan2(to[1] - from[1], to[0] - from[0]), "deg", 4)} deg`, drawn = !session || (index === session.data.drawing.at && !bench.page.playing.value);
   const turn = async (text: string) => {
     const wanted = (Number.parseFloat(text) * Math.PI) / 180, written = si(word(link.length)), far = written > 0 ? written : Math.hypot(b[0] - a[0], b[1] - a[1]);
     if (!Number.isFinite(wanted) || !/^[-+.\d]+ ?(deg|°)?$/.test(text)) return bench.say("insp.no_angle", { text });
     const to = [a[0] + far * Math.cos(wanted), a[1] + far * Math.sin(wanted)];
     return perform(bench, [{ do: "move", points: { [second]: to }, locked: [...bench.locked.value, ...(word(link.length) ? [`${name}.length`] : [])] }]);
   };
-  return <Quantity label={bench.say(session ? "insp.angle_now" : "insp.angle")} value={`${inUnit(radians, "deg", 4)} deg`} unit="deg" follows set={drawn ? turn : undefined} />;
+  return <Quantity label={bench.say(session ? "insp.angle_now" : "insp.angle")} value={angleOf(a, b)} unit="deg" live={session ? { bench, at: (i) => angleOf(placeOf(bench, first, i) ?? a, placeOf(bench, second, i) ?? b) } : undefined} follows set={drawn ? turn : undefined} />;
 }
 
 /** How far a link swings over the cycle. */

@@ -1,29 +1,52 @@
 // What the machine does at the position that is shown, for panes that are read and not followed by the eye.
-import { useEffect, useState } from "preact/hooks";
+import { untracked } from "@preact/signals";
+import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { Vec } from "../../shapes";
 import type { Bench } from "../bench";
 
-/** While it plays, numbers change as often as this, ms. */
+/** Numbers change as often as this, ms; panes are rendered again when the machine has rested as long. */
 const PACE = 120;
 
-/** The position that is shown, the machine's rows there; renders again as often as can be read. */
+/** The position that is shown; renders again when the machine comes to rest, and never while it plays. */
 export function useNow(bench: Bench): number {
-  const [, again] = useState(0), session = bench.session.value;
-  void session?.calm.value;
+  const [, again] = useState(0), session = bench.session.value, { page } = bench;
+  void [session?.calm.value, page.playing.value];
   useEffect(() => {
     let timer = 0;
-    const look = () => (timer ||= window.setTimeout(() => {
-      timer = 0;
-      again((count) => count + 1);
-    }, PACE));
-    const ends = [bench.page.phase.subscribe(look), session?.version.subscribe(look)];
+    const rested = () => void (page.playing.peek() || again((count) => count + 1));
+    const look = () => {
+      window.clearTimeout(timer);
+      if (!page.playing.peek()) timer = window.setTimeout(rested, PACE);
+    };
+    const ends = [page.phase.subscribe(look), session?.version.subscribe(look)];
     return () => {
       for (const end of ends) end?.();
       window.clearTimeout(timer);
     };
   }, [session]);
-  return session ? bench.page.index(session) : 0;
+  return indexNow(bench);
 }
+
+/** Writes what is shown into the page as it changes, as often as can be read, without a rendering. */
+export function useLive(bench: Bench | undefined, write: ((index: number) => void) | undefined): void {
+  const session = bench?.session.value, latest = useRef(write);
+  useLayoutEffect(() => void (latest.current = write));
+  useEffect(() => {
+    let timer = 0;
+    const look = () => (timer ||= window.setTimeout(() => {
+      timer = 0;
+      if (bench) latest.current?.(indexNow(bench));
+    }, PACE));
+    const ends = bench && write && session ? [bench.page.phase.subscribe(look), session.version.subscribe(look)] : [];
+    return () => {
+      for (const end of ends) end();
+      window.clearTimeout(timer);
+    };
+  }, [session, !write]);
+}
+
+/** The position that is shown, for one who does not follow it. */
+const indexNow = ({ session, page }: Bench) => untracked(() => (session.value ? page.index(session.value) : 0));
 
 /** The key of a point among the rows of the machine, by its name in the text. */
 export function keyOf(bench: Bench, name: string): string | null {

@@ -1,4 +1,6 @@
 // A pivot, a joint, or a point of a link: where it is, what is joined there, its pin, what acts in it now.
+import { useLayoutEffect, useRef } from "preact/hooks";
+import { write } from "../../strokes";
 import { quantity } from "../../words";
 import type { Bench } from "../bench";
 import type { IconName } from "../frame/icons";
@@ -8,7 +10,7 @@ import { at, isFixed, linksAt, type Path, type Table, table, word, words } from 
 import { Act, Chips, Quantity, Row, Section, Switch } from "./fields";
 import { Head, Written } from "./head";
 import { HodographPlot } from "./hodograph";
-import { keyOf, placeOf, rowAt, useNow } from "./now";
+import { keyOf, placeOf, rowAt, useLive, useNow } from "./now";
 import { inUnit } from "./quantities";
 import type { PanelProps } from "./selected";
 
@@ -44,7 +46,7 @@ function Place({ bench, name, path, entries, owner }: { bench: Bench; name: stri
     const labels = owner ? ["insp.along", "insp.across"] : ["insp.x", "insp.y"];
     return <>{written.map((value, k) => <Quantity key={k} label={say(labels[k])} value={value} unit={unit} set={take(k)} />)}</>;
   }
-  const place = placeOf(bench, name, index), drawn = !session || index === session.data.drawing.at;
+  const place = placeOf(bench, name, index), drawn = !session || (index === session.data.drawing.at && !bench.page.playing.value);
   if (!place) return null;
   const move = (k: number) => async (text: string) => {
     const to = [...place], found = typed(text, "length");
@@ -54,7 +56,7 @@ function Place({ bench, name, path, entries, owner }: { bench: Bench; name: stri
   };
   return (
     <>
-      {place.map((value, k) => <Quantity key={k} label={say(k ? "insp.y" : "insp.x")} value={`${inUnit(value, unit)} ${unit}`} unit={unit} follows={!!session} set={drawn ? move(k) : undefined} />)}
+      {place.map((value, k) => <Quantity key={k} label={say(k ? "insp.y" : "insp.x")} value={`${inUnit(value, unit)} ${unit}`} unit={unit} live={session ? { bench, at: (i) => `${inUnit(placeOf(bench, name, i)?.[k] ?? NaN, unit)} ${unit}` } : undefined} follows={!!session} set={drawn ? move(k) : undefined} />)}
     </>
   );
 }
@@ -103,21 +105,27 @@ function Velocity({ bench, name, fixed }: { bench: Bench; name: string; fixed: b
   return <Section bench={bench} id="insp.hodograph" title={bench.say("insp.hodograph")} open={false}>{() => <HodographPlot bench={bench} session={session} point={key} name={name} />}</Section>;
 }
 
+/** A vector of the machine as it is now: its size, and its direction where it has one. */
+function Live({ bench, id, kind, label, tone }: { bench: Bench; id: string; kind: string; label: string; tone: string }) {
+  const index = useNow(bench), { model } = bench.session.value!, size = useRef<HTMLElement>(null), way = useRef<HTMLElement>(null), rows = model.signals[id].rows;
+  const show = (i: number) => {
+    const [x, y] = rows.map((each) => model.main.row(each)[i]), long = rowAt(bench, id, i);
+    write(size.current!, Number.isFinite(long) ? quantity(long, kind) : "–");
+    write(way.current!, long > 1e-9 ? quantity(Math.atan2(y, x), "angle", 1, 4) : "");
+  };
+  useLive(bench, show);
+  useLayoutEffect(() => show(index));
+  return <Row label={label}><span class={`value ${tone}`}><span ref={size} /><small ref={way} /></span></Row>;
+}
+
 /** Speed, acceleration and joint forces at the position that is shown. */
 function Now({ bench, name, fixed }: { bench: Bench; name: string; fixed: boolean }) {
-  const index = useNow(bench), session = bench.session.value, key = keyOf(bench, name), { say } = bench;
+  const session = bench.session.value, key = keyOf(bench, name), { say } = bench;
+  void session?.calm.value;
   if (!session || !key) return null;
   const forces = session.data.signals.filter(({ id }) => id.startsWith(`r:${key}|`)), moving = !fixed && `v:${key}` in session.model.signals;
   if (!forces.length && !moving) return null;
-  const row = (id: string, kind: string, label: string, tone: string) => {
-    const [x, y] = session.model.signals[id].rows.map((each) => session.model.main.row(each)[index]), size = rowAt(bench, id, index);
-    if (!Number.isFinite(size)) return null;
-    return (
-      <Row key={id} label={label}>
-        <span class={`value ${tone}`}>{quantity(size, kind)}{size > 1e-9 && <small>{quantity(Math.atan2(y, x), "angle", 1, 4)}</small>}</span>
-      </Row>
-    );
-  };
+  const row = (id: string, kind: string, label: string, tone: string) => <Live key={id} bench={bench} id={id} kind={kind} label={label} tone={tone} />;
   return (
     <Section bench={bench} id="insp.now" title={say("insp.now")}>
       {() => (

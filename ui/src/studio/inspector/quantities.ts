@@ -54,8 +54,12 @@ export function si(text: string): number {
   return unit ? (known(`${number} ${unit}`)?.value ?? Number(number) * (FACTORS[unit] ?? NaN)) : Number(number);
 }
 
+/** Units by what they are in SI: dimensions of the sheet ask for them at every frame. */
+const factors = new Map<string, number>();
+
 /** A value (SI) in a unit, with as many digits as a drawing has. */
 export function inUnit(value: number, unit: string, digits = 5): string {
-  const shown = Number((value / (si(`1 ${unit}`) || 1)).toPrecision(digits));
+  const factor = factors.get(unit) ?? (si(`1 ${unit}`) || 1), shown = Number((value / factor).toPrecision(digits));
+  factors.set(unit, factor);
   return String(Math.abs(shown) < 1e-9 ? 0 : shown);
 }
