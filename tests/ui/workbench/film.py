@@ -115,7 +115,7 @@ def states(film: Film) -> None:
               for (const name of ['velocities', 'forces', 'transmission', 'limits']) bench.show(name, true);
               linkwright.phase.value = 0.55; }"""
             of.tab.evaluate(script)
-            of.frame()
+            of.tab.locator(".inspector table tbody tr").nth(5).wait_for()
             film.shot(of, f"analysis-{mark}")
 
 

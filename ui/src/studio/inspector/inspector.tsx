@@ -72,8 +72,17 @@ export function Tabs({ bench, tabs, tab }: { bench: Bench; tabs: readonly Tab[];
   );
 }
 
-/** What a tab shows; the same at the right of the sheet and in the drawer of a phone. */
+/** What a tab shows, under its name for those who hear it; the same at the right of the sheet and in the drawer of a phone. */
 export function Pane({ bench, tab }: { bench: Bench; tab: Tab }) {
+  return (
+    <>
+      {tab !== "inspect" && <h2 class="unseen">{bench.say(`insp.tab_${tab}`)}</h2>}
+      <Shown bench={bench} tab={tab} />
+    </>
+  );
+}
+
+function Shown({ bench, tab }: { bench: Bench; tab: Tab }) {
   switch (tab) {
     case "inspect": return <Selected bench={bench} />;
     case "numbers": return <Numbers bench={bench} />;
