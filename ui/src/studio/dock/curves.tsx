@@ -34,6 +34,9 @@ function steady(value: number, kind: string, size: number): string {
   return plain.replace("-", "−") + (symbol === "°" || !symbol ? symbol : ` ${symbol}`);
 }
 
+/** About how wide values are at most. */
+const roomFor = (all: number[], kind: string, size: number) => `${Math.max(...all.map((each) => steady(each, kind, size).length)) + 2}ch`;
+
 /** Ticks of the axis that curves run over. */
 function axisTicks({ model }: Session): { share: number; text: string }[] {
   const { x, kind } = model.axis;
@@ -85,7 +88,7 @@ export function Curves({ bench, session }: { bench: Bench; session: Session }) {
 }
 
 function Figure({ bench, session, quantity, words, ids }: { bench: Bench; session: Session; quantity: Quantity; words: Words; ids: string[] }) {
-  const button = useRef<HTMLButtonElement>(null), value = useRef<HTMLOutputElement>(null), [picking, pick] = useState(false), name = sentence(quantity, words), of = ofWhat(quantity, words);
+  const button = useRef<HTMLButtonElement>(null), value = useRef<HTMLSpanElement>(null), [picking, pick] = useState(false), name = sentence(quantity, words), of = ofWhat(quantity, words);
   const part = quantity.as === "value" || quantity.as === "size" ? "" : asWhat(quantity, words);
   return (
     <figure class="plot" data-curve={quantity.id}>
@@ -94,7 +97,7 @@ function Figure({ bench, session, quantity, words, ids }: { bench: Bench; sessio
           <b>{whatOf(quantity, words)}</b><Icon name="chevron" size={14} />
         </button>
         <span class="of">{of && <Name text={of} />}{part && ` ${part}`}</span>
-        <output ref={value} />
+        <output><span ref={value} /></output>
         <button class="away" aria-label={bench.page.say("forget", { name })} onClick={() => remember(bench, { ids: ids.filter((each) => each !== quantity.id) })}><Icon name="close" size={14} /></button>
       </figcaption>
       {picking && <Picker bench={bench} session={session} words={words} anchor={button.current!} chosen={quantity.id} close={() => pick(false)} choose={(id) => remember(bench, { ids: ids.flatMap((each) => (each === quantity.id ? id : each === id ? [] : each)) })} />}
@@ -114,7 +117,7 @@ interface Drawn {
   quantity: Quantity;
   name: string;
   /** Where the value at the cursor is written. */
-  value: { current: HTMLOutputElement | null };
+  value: { current: HTMLElement | null };
 }
 
 function Curve({ bench, session, quantity, name, value }: Drawn) {
@@ -137,6 +140,8 @@ function Curve({ bench, session, quantity, name, value }: Drawn) {
         drawn.set({ x: model.axis.x, now: row.current, before, kept, peaks, colour, factor, turn, limit: quantity.what === "transmission" ? GOOD : null, ticks });
         const [low, high] = [Math.min(...row.current), Math.max(...row.current)].map((x) => quantityText(x, quantity.kind, size));
         drawn.label(bench.say("dock.curve_label", { name, low, high }));
+        // As wide as its longest value, so that another one changes no other place.
+        value.current!.style.width = roomFor([Math.min(...row.current), Math.max(...row.current)], quantity.kind, size);
         write(missing.current!, isForce(quantity.id.split("~")[0]) && !model.forces ? withoutForces(bench, session) : "");
       }
       const now = between(row.current, place, turn);
@@ -183,6 +188,7 @@ function Vectors({ bench, session, quantity, name, value }: Drawn) {
         [seen, x, y] = [version, values(session, quantity, 0), values(session, quantity, 1)];
         drawn.set(x, y, colourOf(quantity) as "accent", session.data.positions.closed);
         drawn.label(name);
+        value.current!.style.width = roomFor([size], quantity.kind, size);
       }
       const [a, b] = [between(x, place, 0), between(y, place, 0)];
       drawn.cursor(a, b);

@@ -141,7 +141,8 @@ function Transport({ bench, session }: { bench: Bench; session: Session }) {
   const thumb = useRef<HTMLDivElement>(null), field = useRef<HTMLInputElement>(null), name = data.positions.inputs[0]?.name ?? "";
   useLayoutEffect(() => effect(() => {
     const i = page.index(session), share = page.phase.value, text = shown(model.solver.inputs[i], turns, size);
-    thumb.current!.style.left = `${(100 * (range ? range.share(model.solver.inputs[i]) : share)).toFixed(3)}%`;
+    // Moved by its way, which is as wide as the track: nothing is laid out anew.
+    thumb.current!.style.transform = `translateX(${(100 * (range ? range.share(model.solver.inputs[i]) : share)).toFixed(3)}%)`;
     const slider = thumb.current!.parentElement!;
     put(slider, "aria-valuenow", share.toFixed(4));
     put(slider, "aria-valuetext", text);
@@ -188,7 +189,7 @@ function Transport({ bench, session }: { bench: Bench; session: Session }) {
   return (
     <>
       <button class="play" aria-label={page.say(playing ? "pause" : "play")} data-tip={page.say(playing ? "pause" : "play")} data-keys="Space" onClick={() => page.play(!playing)}><Icon name={playing ? "pause" : "play"} /></button>
-      <input
+      <span class="at-box"><input
         ref={field} class="at" spellcheck={false} autocomplete="off" aria-label={bench.say("dock.input", { name })} data-tip={bench.say("dock.input", { name })}
         onFocus={(event) => { page.play(false); event.currentTarget.select(); }} onChange={type}
         onKeyDown={(event) => {
@@ -199,13 +200,13 @@ function Transport({ bench, session }: { bench: Bench; session: Session }) {
           }
           event.stopPropagation();
         }}
-      />
+      /></span>
       <Track
         role="slider" tabIndex={0} aria-label={page.say("position")} aria-valuemin={0} aria-valuemax={1} aria-valuenow={0}
         onPointerDown={drag} onPointerMove={drag} onKeyDown={key}
         {...shownOn}
       >
-        <div class="thumb" ref={thumb} />
+        <div class="thumb-way" ref={thumb}><div class="thumb" /></div>
       </Track>
       <Cycle bench={bench} />
       <Speed bench={bench} session={session} />

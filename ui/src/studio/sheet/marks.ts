@@ -4,6 +4,7 @@ import { away, far, hull, line, unit as along } from "../../strokes";
 import type { Item } from "../bench";
 import { exactly, reads, typed } from "../tools/typed";
 import { dist } from "./geometry";
+import type { Entry } from "../outline";
 import type { Pencil } from "./overlay";
 import type { Board } from "./sheet";
 
@@ -73,10 +74,24 @@ export function lengths(board: Board): Length[] {
   });
 }
 
+const read = new WeakMap<object, Record<string, number>>();
+
+/** The lengths that links have in the file, m. */
+function writtenOf(links: Entry | undefined): Record<string, number | undefined> {
+  if (typeof links !== "object" || Array.isArray(links)) return {};
+  const known = read.get(links);
+  if (known) return known;
+  const found = Object.fromEntries(Object.entries(links).flatMap(([link, own]) => {
+    const length = typeof own === "object" && !Array.isArray(own) && typeof own.length === "string" ? typed(own.length, "length") : null;
+    return length ? [[link, length.value]] : [];
+  }));
+  read.set(links, found);
+  return found;
+}
+
 /** A length as the file has it, where it does; else as it is drawn. */
 function lengthText({ bench, solved }: Board, link: string, [a, b]: Vec[]): string {
-  const { unit } = bench.settings.value, entry = bench.desk.solved.value.outline?.entries.links, own = typeof entry === "object" && !Array.isArray(entry) ? entry[link] : undefined;
-  const length = typeof own === "object" && !Array.isArray(own) ? own.length : undefined, written = typeof length === "string" ? typed(length, "length")?.value : undefined;
+  const { unit } = bench.settings.value, written = writtenOf(bench.desk.solved.value.outline?.entries.links)[link];
   const now = solved?.model.values[`${link}.length`] ?? written;
   if (now === undefined) return reads(dist(a, b), "length", unit);
   // What is tried out on the machine is in steps of a hand; what is written has its own digits.

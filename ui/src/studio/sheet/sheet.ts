@@ -92,11 +92,14 @@ export class Board implements Sheet {
     });
     this.follow(() => {
       void [bench.session.value?.version.value, page.phase.value, page.playing.value, bench.settings.value, desk.text.value, page.language.value];
+      void desk.solved.value;
+      this.touch();
+    });
+    this.follow(() => {
       const { picture, model, text } = desk.solved.value;
       if (!picture && !model && text === undefined) this.fitting = true;
       if (picture && text === desk.text.value) this.prune(picture);
       if (Object.keys(picture?.links ?? {}).join() !== [...this.sides.keys()].join()) this.sides.clear();
-      this.touch();
     });
     this.follow(() => {
       void [bench.selection.value, bench.hovered.value];
