@@ -10,6 +10,7 @@ import { digits, quantity } from "../../words";
 import type { Bench } from "../bench";
 import { Icon } from "../frame/icons";
 import { foresee } from "./foresee";
+import { Select } from "./select";
 
 /** Another machine, with what can be drawn of it. */
 interface Other {
@@ -136,7 +137,7 @@ function Sources({ bench, session }: { bench: Bench; session: Session }) {
       {session.model.differs && (
         <button class="quietly" onClick={() => { session.model.original = session.model.design(); session.touched(); }}>{say("dock.keep_as_before")}</button>
       )}
-      <select
+      <Select
         value="" aria-label={say("dock.add_machine")}
         onChange={(event) => {
           const [kind, name] = event.currentTarget.value.split(/:(.*)/s), title = event.currentTarget.selectedOptions[0].textContent ?? name;
@@ -147,7 +148,7 @@ function Sources({ bench, session }: { bench: Bench; session: Session }) {
         <option value="">{say("dock.add_machine")}</option>
         {folder && folder.files.length > 0 && <optgroup label={say("dock.files")}>{folder.files.map(({ name }) => <option key={name} value={`name:${name}`}>{name}</option>)}</optgroup>}
         {folder && <optgroup label={say("gallery")}>{folder.gallery.map(({ name, title }) => <option key={name} value={`gallery:${name}`}>{title}</option>)}</optgroup>}
-      </select>
+      </Select>
     </div>
   );
 }

@@ -6,6 +6,7 @@ import type { Session } from "../../session";
 import type { Bench } from "../bench";
 import { Icon } from "../frame/icons";
 import { about, type Goal, parted, ranged, type Sense, SENSES, type Wish, wished, writtenWish } from "./wish";
+import { Select } from "./select";
 
 /** Columns of a design: what it is of, before, now, change; the bounds stand in the form. */
 const SHOWN = 4;
@@ -47,21 +48,21 @@ function Form({ bench, session, asked }: Props & { asked: Record<string, unknown
       <fieldset>
         <legend>{say("dock.vary")}</legend>
         {wish.vary.map(([name, range], k) => <Vary key={name} bench={bench} name={name} range={range} set={(to) => put("vary", wish.vary.map((row, j) => (j === k ? [name, to] : row)))} remove={() => put("vary", wish.vary.filter((_, j) => j !== k))} />)}
-        <select
+        <Select
           value="" aria-label={say("add_dimension")}
           onChange={(event) => {
             const found = dimensions.find(({ address }) => address === event.currentTarget.value);
             event.currentTarget.value = "";
             if (found) put("vary", [...wish.vary, [found.address, about(found, session.model.values[found.address], session.model.size)]]);
           }}
-        ><option value="">{say("add_dimension")}</option>{free.map(({ address }) => <option key={address}>{address}</option>)}</select>
+        ><option value="">{say("add_dimension")}</option>{free.map(({ address }) => <option key={address}>{address}</option>)}</Select>
       </fieldset>
       <fieldset>
         <legend>{say("dock.goals")}</legend>
         {wish.goals.map(([sense, name], k) => (
           <div class="wish-row" key={k}>
             <Away bench={bench} name={name} act={() => put("goals", wish.goals.filter((_, j) => j !== k))} />
-            <span class="wish-pair"><select value={sense} aria-label={say("dock.goals")} onChange={(event) => put("goals", wish.goals.map((row, j): Goal => (j === k ? [event.currentTarget.value as Sense, name] : row)))}>{SENSES.map((each) => <option key={each} value={each}>{say(`dock.${each}`)}</option>)}</select>
+            <span class="wish-pair"><Select value={sense} aria-label={say("dock.goals")} onChange={(event) => put("goals", wish.goals.map((row, j): Goal => (j === k ? [event.currentTarget.value as Sense, name] : row)))}>{SENSES.map((each) => <option key={each} value={each}>{say(`dock.${each}`)}</option>)}</Select>
             <Metric bench={bench} goals={goals} name={name} set={(to) => put("goals", wish.goals.map((row, j): Goal => (j === k ? [sense, to] : row)))} /></span>
           </div>
         ))}
@@ -121,10 +122,10 @@ function Vary({ bench, name, range, set, remove }: { bench: Bench; name: string;
 /** A number in words; one that the list does not have stays as the file calls it. */
 function Metric({ bench, goals, name, set }: { bench: Bench; goals: Named[]; name: string; set: (name: string) => void }) {
   return (
-    <select value={name} aria-label={bench.say("number_name")} onChange={(event) => set(event.currentTarget.value)}>
+    <Select value={name} aria-label={bench.say("number_name")} onChange={(event) => set(event.currentTarget.value)}>
       {!goals.some((each) => each.name === name) && <option value={name}>{name}</option>}
       {goals.map((each) => <option key={each.name} value={each.name}>{each.label}</option>)}
-    </select>
+    </Select>
   );
 }
 
@@ -132,7 +133,7 @@ function Demand({ bench, demand, set }: { bench: Bench; demand: string; set: (de
   const [bound, value] = parted(demand);
   return (
     <>
-      {bound && <select value={bound} aria-label={bench.say("dock.bound")} onChange={(event) => set(`${event.currentTarget.value} ${value}`)}><option value="at least">≥</option><option value="at most">≤</option></select>}
+      {bound && <Select value={bound} aria-label={bench.say("dock.bound")} onChange={(event) => set(`${event.currentTarget.value} ${value}`)}><option value="at least">≥</option><option value="at most">≤</option></Select>}
       <input value={value} aria-label={bench.say("demand_text")} onInput={(event) => set(bound ? `${bound} ${event.currentTarget.value}` : event.currentTarget.value)} />
     </>
   );

@@ -13,6 +13,7 @@ import { line } from "../../strokes";
 import { lay } from "./foresee";
 import { Plot } from "./plot";
 import { GOOD } from "./quantities";
+import { Select } from "./select";
 import { Name } from "./symbol";
 import { type Swept, sweep } from "./sweep";
 
@@ -97,13 +98,13 @@ function Form({ bench, session, dimension, low, high }: { bench: Bench; session:
   );
   return (
     <div class="sweep-form">
-      <select
+      <Select
         aria-label={say("dock.swept")} value={address}
         onChange={(event) => {
           const chosen = session.data.dimensions.find((each) => each.address === event.currentTarget.value)!;
           bench.inHand.value = { address: chosen.address, ...rangeOf(session, chosen) };
         }}
-      >{session.data.dimensions.map((each) => <option key={each.address}>{each.address}</option>)}</select>
+      >{session.data.dimensions.map((each) => <option key={each.address}>{each.address}</option>)}</Select>
       {end("low", low)}
       {end("high", high)}
       <label class="task-field"><span>{say("dock.steps")}</span><input type="number" min={3} max={MOST} value={steps.value} onChange={(event) => (steps.value = Math.max(3, Math.min(MOST, Math.round(Number(event.currentTarget.value) || USUAL))))} /></label>

@@ -8,6 +8,7 @@ import type { Bench } from "../bench";
 import { Icon } from "../frame/icons";
 import type { Given, Task } from "./demands";
 import { foresee } from "./foresee";
+import { Select } from "./select";
 import { Thumb } from "./thumb";
 import { TaskForm } from "./task";
 
@@ -27,10 +28,10 @@ export function Synthesis({ bench }: { bench: Bench }) {
       <div class="synthesis-form">
         <label class="task-field task-choice">
           <span class="unseen">{say("dock.task")}</span>
-          <select value={name} onChange={(event) => (chosen.value = event.currentTarget.value)}>
+          <Select value={name} onChange={(event) => (chosen.value = event.currentTarget.value)}>
             <option value={CURVE}>{say("dock.task.curve")}</option>
             {tasks.map((each) => <option key={each.name} value={each.name}>{say(`dock.task.${each.name}`)}</option>)}
-          </select>
+          </Select>
         </label>
         {name === CURVE ? <OfTarget bench={bench} /> : task && <TaskForm key={name} bench={bench} task={task} given={typed.value[name] ?? {}} give={(given) => (typed.value = { ...typed.value, [name]: given })} />}
       </div>

@@ -5,6 +5,7 @@ import { Icon } from "../frame/icons";
 import { collect, drawRows } from "./collect";
 import { type Demand, filled, type Given, MOST, pasted, ROWS, SHOWN, type Task, type Typed, UNITS, written } from "./demands";
 import { lay } from "./foresee";
+import { Select } from "./select";
 
 interface Props {
   bench: Bench;
@@ -57,10 +58,10 @@ function Field(props: FieldProps) {
     return (
       <label class="task-field">
         <span>{label}</span>
-        <select value={typeof typed === "string" ? typed : (usual ?? "").toString()} onChange={(event) => set(event.currentTarget.value)}>
+        <Select value={typeof typed === "string" ? typed : (usual ?? "").toString()} onChange={(event) => set(event.currentTarget.value)}>
           {usual === null && <option value="">{bench.say("dock.free")}</option>}
           {words.map(([word, name]) => <option key={word} value={word}>{name}</option>)}
-        </select>
+        </Select>
       </label>
     );
   }
