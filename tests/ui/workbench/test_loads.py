@@ -172,9 +172,8 @@ def picture(folder: Path) -> Path:
 
 def test_a_photo_is_brought_to_scale_and_kept_with_the_drawing(chromium: Any, tmp_path: Path) -> None:
     with hand(chromium, tmp_path, press(tmp_path)) as drawn:
-        with drawn.tab.expect_file_chooser() as chooser:
-            drawn.take("photo")
-        chooser.value.set_files(picture(tmp_path))
+        drawn.take("photo")
+        drawn.tab.locator("input[type=file]").set_input_files(picture(tmp_path))
         drawn.tab.wait_for_function("() => bench.photo.value")
         drawn.frame()
         before = drawn.tab.evaluate("() => bench.photo.value.width")

@@ -1,6 +1,6 @@
 // The frame of a dialog: the browser's own, so that focus stays in it, Escape shuts it and the focus goes back.
 import type { ComponentChildren } from "preact";
-import { useEffect, useId, useRef } from "preact/hooks";
+import { useId, useLayoutEffect, useRef } from "preact/hooks";
 import type { Bench } from "../bench";
 import { Square } from "./controls";
 
@@ -15,7 +15,8 @@ interface Props {
 
 export function DialogFrame({ bench, title, class: style = "", bare, children }: Props) {
   const host = useRef<HTMLDialogElement>(null), id = useId();
-  useEffect(() => {
+  // Before it is painted: what is typed at once goes into it.
+  useLayoutEffect(() => {
     host.current!.showModal();
     host.current!.querySelector<HTMLElement>("[autofocus]")?.focus();
   }, []);

@@ -23,7 +23,7 @@ export function listen(bench: Bench, commands: Commands): () => void {
   const { desk } = bench;
   const steps: Commands = { "Ctrl+Z": () => desk.history.undo(), "Ctrl+Shift+Z": () => desk.history.redo(), "Ctrl+Y": () => desk.history.redo() };
   const hear = (event: KeyboardEvent) => {
-    if (event.defaultPrevented || event.isComposing || document.querySelector("dialog[open]")) return;
+    if (event.defaultPrevented || event.isComposing || bench.dialog.value) return;
     const keys = pressed(event), editing = writes(event.target), command = commands[keys] ?? (editing ? undefined : steps[keys]);
     if (command && !(editing && !keys.startsWith("Ctrl"))) {
       event.preventDefault();

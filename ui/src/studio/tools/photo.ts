@@ -14,6 +14,7 @@ class PhotoTool extends ClickTool implements Tool {
   private places: Vec[] = [];
   private pressed: Spot | null = null;
   private from: Vec | null = null;
+  private readonly input = this.field();
 
   constructor(sheet: Sheet) {
     super(sheet);
@@ -30,14 +31,19 @@ class PhotoTool extends ClickTool implements Tool {
     return [["hint.photo_first", "hint.photo_second", "hint.photo_length"][this.places.length]];
   }
 
-  /** Asks for a picture; the browser shows its own window. */
-  private choose(): void {
-    const input = Object.assign(document.createElement("input"), { type: "file", accept: "image/*" });
+  /** The field of the page by which the browser hands over a picture, there while the tool is. */
+  private field(): HTMLInputElement {
+    const input = document.body.appendChild(Object.assign(document.createElement("input"), { type: "file", accept: "image/*", hidden: true }));
     input.addEventListener("change", () => {
       const file = input.files?.[0];
       if (file) void showPhoto(this.sheet, file);
     });
-    input.click();
+    return input;
+  }
+
+  /** Asks for a picture; the browser shows its own window. */
+  private choose(): void {
+    this.input.click();
   }
 
   override down(spot: Spot): void {
@@ -116,6 +122,7 @@ class PhotoTool extends ClickTool implements Tool {
   }
 
   leave(): void {
+    this.input.remove();
     this.drop();
     this.clicks.drop();
     this.pressed = null;
