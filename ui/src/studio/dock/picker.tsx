@@ -3,7 +3,7 @@ import { useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import type { Session } from "../../session";
 import type { Bench } from "../bench";
 import { Icon } from "../frame/icons";
-import { asWhat, ofWhat, quantities, type Quantity, sentence, whatOf, WHATS, type Words } from "./quantities";
+import { asWhat, ofWhat, quantities, type Quantity, sentence, whatOf, CONTENTS, type Words } from "./quantities";
 import { Name } from "./symbol";
 
 interface Props {
@@ -45,7 +45,7 @@ export function Picker({ bench, session, words, anchor, chosen, choose, close }:
     const said = sentence(each, words).toLowerCase();
     return parts.every((part) => said.includes(part));
   }).slice(0, MOST) : [];
-  const whats = WHATS.filter((each) => all.some((quantity) => quantity.what === each)), ofThese = all.filter((each) => each.what === what);
+  const contents = CONTENTS.filter((each) => all.some((quantity) => quantity.what === each)), ofThese = all.filter((each) => each.what === what);
   const places = [...new Map(ofThese.map((each) => [`${each.of}|${each.on}`, each])).values()], ways = ofThese.filter((each) => `${each.of}|${each.on}` === of);
   const key = (event: KeyboardEvent) => {
     event.stopPropagation();
@@ -82,7 +82,7 @@ export function Picker({ bench, session, words, anchor, chosen, choose, close }:
         <div class="picker-columns">
           <div role="group" aria-label={say("dock.what")}>
             <h3>{say("dock.what")}</h3>
-            {whats.map((each) => {
+            {contents.map((each) => {
               const one = all.find((quantity) => quantity.what === each)!;
               return (
                 <button key={each} aria-pressed={each === what} onClick={() => { setWhat(each); setOf(`${one.of}|${one.on}`); }}>{whatOf(one, words)}<Icon name="chevron" size={14} /></button>

@@ -5,10 +5,10 @@ import { isForce } from "../../numbers";
 import type { Session } from "../../session";
 import type { Bench } from "../bench";
 
-export const WHATS = [
+export const CONTENTS = [
   "position", "displacement", "velocity", "acceleration", "angle", "angular_velocity", "angular_acceleration", "transmission", "effort", "reaction", "shaking",
 ] as const;
-export type What = (typeof WHATS)[number];
+export type What = (typeof CONTENTS)[number];
 /** As a number, the size of a vector, one of its components, or the way of its tip. */
 export type As = "value" | "size" | "x" | "y" | "polar";
 

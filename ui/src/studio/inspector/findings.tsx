@@ -19,7 +19,7 @@ interface Shown {
 }
 
 /** What the tab shows: why the machine cannot be assembled first; nothing while the sheet is empty. */
-export function foundIn(bench: Bench): Shown[] {
+export function findingsOf(bench: Bench): Shown[] {
   const { findings, outline, gap, sentence, model } = bench.desk.solved.value;
   if (outline && !Object.keys(table(outline.entries.links)).length && !Object.keys(outline.entries.frame ?? {}).length) return [];
   const shown: Shown[] = gap ? [{ severity: "error", title: gap.title, sentence: gap.sentence, line: 0, items: gapItems(gap), remedies: gap.remedies }] : [];
@@ -46,7 +46,7 @@ function remediesOf(bench: Bench, { code, key }: Found): Remedy[] {
 }
 
 export function Findings({ bench }: { bench: Bench }) {
-  const { say } = bench, found = foundIn(bench), { gap } = bench.desk.solved.value;
+  const { say } = bench, found = findingsOf(bench), { gap } = bench.desk.solved.value;
   return (
     <>
       <div role="status" class="unseen">{found.length ? say("insp.count_findings", { count: String(found.length) }) : say("fine")}</div>

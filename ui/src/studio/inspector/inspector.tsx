@@ -2,7 +2,7 @@
 import { useEffect, useState } from "preact/hooks";
 import { type Bench, type Tab, TABS } from "../bench";
 import { unseen } from "./fields";
-import { Findings, foundIn } from "./findings";
+import { Findings, findingsOf } from "./findings";
 import { Numbers } from "./numbers";
 import { Selected } from "./selected";
 import { Structure } from "./structure";
@@ -48,7 +48,7 @@ function Half({ bench, tabs, tab }: { bench: Bench; tabs: readonly Tab[]; tab: T
 
 /** Tabs with their marks; the arrows walk through them. */
 export function Tabs({ bench, tabs, tab }: { bench: Bench; tabs: readonly Tab[]; tab: Tab }) {
-  const found = foundIn(bench);
+  const found = findingsOf(bench);
   const walk = (event: KeyboardEvent) => {
     const place = tabs.indexOf(tab), step = { ArrowRight: place + 1, ArrowLeft: place - 1, Home: 0, End: tabs.length - 1 }[event.key];
     if (step === undefined) return;
