@@ -30,7 +30,7 @@ const SHARE = 0.2;
 // How many machines are drawn as ghosts, and the time that they may take, ms.
 const FEWEST = 41, MOST = 500, MOMENT = 400, TRIED = 4;
 // Tables and fields are read again when a hand rests this long, and while it goes on as often as this, ms.
-const REST = 120, LONGEST = 400;
+const REST = 120, LONGEST = 700;
 // Digits of dimensions that a hand has moved, the fewest first.
 const DIGITS = [4, 5, 7];
 

@@ -86,6 +86,7 @@ def test_a_drawn_four_bar_has_its_torque_and_is_scrubbed(chromium: Any, tmp_path
         assert half - crank_is_where_the_field_says(drawn) == pytest.approx(math.pi, abs=0.02)
 
 
+@pytest.mark.rotating
 def test_a_slider_crank_of_a_typed_stroke_and_time_ratio_is_taken(chromium: Any, tmp_path: Path) -> None:
     with hand(chromium, tmp_path) as drawn:
         drawn.tab.get_by_role("tab", name=drawn.translate("studio.dock.synthesis")).click()

@@ -121,6 +121,7 @@ def test_a_wrong_value_is_refused_at_its_field(chromium: Any, tmp_path: Path) ->
         it.errors[:] = [each for each in it.errors if "422" not in each]
 
 
+@pytest.mark.rotating
 def test_a_link_gets_mass_and_inertia_from_its_section(chromium: Any, tmp_path: Path) -> None:
     """Flat steel 20 × 5 mm, 100 mm long: m = 7850·0.02·0.005·0.1 kg, J = m(l² + b²)/12; a tube by its ring."""
     with inspecting(chromium, tmp_path, PRESS.replace("60 mm", "100 mm")) as it:

@@ -90,6 +90,7 @@ def test_a_force_is_typed_while_it_is_in_hand_and_given_up_by_escape(chromium: A
         assert place == pytest.approx((0.025, 0.0), abs=1e-3)
 
 
+@pytest.mark.rotating
 def test_a_mass_brings_its_inertia_and_its_centre_is_dragged(chromium: Any, tmp_path: Path) -> None:
     with hand(chromium, tmp_path, press(tmp_path)) as drawn:
         drawn.take("mass")

@@ -86,6 +86,7 @@ def test_a_length_that_is_locked_stays_while_a_joint_is_dragged(chromium: Any, t
         assert drawn.point("B") == pytest.approx((x, y))
 
 
+@pytest.mark.rotating
 def test_a_box_to_the_left_takes_what_it_touches_which_is_cut_and_pasted(chromium: Any, tmp_path: Path) -> None:
     with hand(chromium, tmp_path) as drawn:
         chain(drawn)

@@ -40,9 +40,9 @@ def cut(found: Hand) -> list[str]:
 @pytest.mark.parametrize(
     "name",
     [
-        "jaw_crusher_sixbar",
+        "theo_jansen_leg",
         pytest.param("printing_press", marks=pytest.mark.rotating),
-        pytest.param("theo_jansen_leg", marks=pytest.mark.rotating),
+        pytest.param("jaw_crusher_sixbar", marks=pytest.mark.rotating),
     ],
 )
 def test_no_word_is_cut(chromium: Any, tmp_path: Path, name: str) -> None:
@@ -75,6 +75,7 @@ drawing:
 """
 
 
+@pytest.mark.rotating
 def test_loads_with_their_labels_are_on_the_phone_and_lengths_are_those_of_the_file(
     chromium: Any, tmp_path: Path
 ) -> None:

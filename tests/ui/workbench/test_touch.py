@@ -50,7 +50,7 @@ SELECTED = (("link", "crank"), ("point", "A"), ("pair", "cylinder"), ("load", "p
 DIALOGS = ("palette", "open", "save", "link", "keys", "tools", "exercise")
 
 
-@pytest.mark.parametrize("language", ["en", "zh"])
+@pytest.mark.parametrize("language", ["en", pytest.param("zh", marks=pytest.mark.rotating)])
 def test_everything_on_a_phone_is_large_enough_for_a_finger(chromium: Any, tmp_path: Path, language: str) -> None:
     text = store.text("slider_crank_inline").rstrip()
     force = "press: {kind: force, on: piston, at: B, direction: 180 deg, magnitude: 100 N}"

@@ -187,6 +187,7 @@ def test_a_rod_that_does_not_come_to_its_guide() -> None:
         assert lw.solve_motion(lw.loads(edited(SLIDER_CRANK, remedy["actions"]).text)).complete
 
 
+@pytest.mark.rotating
 def test_a_triad_says_how_far_its_driver_goes() -> None:
     """A group without closed form has no ends that could be drawn, but places before it, a range, and rocking."""
     machine = lw.load("gallery:triad")
