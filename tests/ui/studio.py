@@ -20,7 +20,6 @@ from linkwright.cli import main
 
 #: What the page may ask, by the ends of its addresses.
 REQUESTS = (
-    "files",
     "folder",
     "thumbnail",
     "rename",

@@ -176,7 +176,7 @@ def test_drawings_that_were_never_saved_can_be_opened(tmp_path: Path) -> None:
         kept = {"name": "machine.yaml", "text": "# drawn\n", "window": "w", "serial": 0}
         assert asked(studio, "keep", kept)[0] == 200
     with serving(tmp_path) as studio:
-        assert asked(studio, "files", {})[1]["drafts"] == ["machine.yaml"]
+        assert [each["name"] for each in asked(studio, "folder", {})[1]["drafts"]] == ["machine.yaml"]
         assert asked(studio, "open", {"name": "machine.yaml"})[1]["text"] == "# drawn\n"
 
 

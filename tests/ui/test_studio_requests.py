@@ -31,7 +31,7 @@ def sent(studio: Studio, request: bytes) -> tuple[int, bytes]:
     return int(head.split()[1]), body
 
 
-def post(studio: Studio, *lines: bytes, body: bytes = b"{}", path: bytes = b"/api/files") -> tuple[int, bytes]:
+def post(studio: Studio, *lines: bytes, body: bytes = b"{}", path: bytes = b"/api/folder") -> tuple[int, bytes]:
     """A request of the page with other header lines."""
     host = f"127.0.0.1:{studio.server_port}".encode()
     head = [b"POST " + path + b" HTTP/1.1", b"Host: " + host, b"X-Linkwright-Token: " + studio.token.encode()]
@@ -48,7 +48,7 @@ def test_malformed_requests_are_refused_with_a_sentence(tmp_path: Path, capfd: p
         assert {status for status, _ in found} == {411, 413}
         good = b"Content-Length: 2"
         found += [
-            post(studio, good, path=path) for path in (b"/api/", b"/api/x", b"//", b"/api/../files", b"http://[")
+            post(studio, good, path=path) for path in (b"/api/", b"/api/x", b"//", b"/api/../folder", b"http://[")
         ]
         found += [post(studio, good, b"X-" + b"x" * 70_000 + b": 1"), post(studio, *[b"X: 1"] * 200, good)]
         found += [
@@ -224,14 +224,14 @@ def test_refusals_are_in_the_language_of_the_request(tmp_path: Path) -> None:
 def test_only_this_page_may_ask(tmp_path: Path) -> None:
     """No secret, a foreign name for this server (DNS rebinding), a foreign origin, a form: all refused."""
     with serving(tmp_path) as studio:
-        assert asked(studio, "files", {})[0] == 200
-        assert asked(studio, "files", {}, X_Linkwright_Token="")[0] == 403
-        assert asked(studio, "files", {}, X_Linkwright_Token="guess")[0] == 403
-        assert asked(studio, "files", {}, Host="evil.example")[0] == 403
-        assert asked(studio, "files", {}, Host=f"evil.example:{studio.server_port}")[0] == 403
-        assert asked(studio, "files", {}, Origin="https://evil.example")[0] == 403
-        assert asked(studio, "files", {}, Origin="null")[0] == 403
-        assert asked(studio, "files", {}, Content_Type="text/plain")[0] == 404
+        assert asked(studio, "folder", {})[0] == 200
+        assert asked(studio, "folder", {}, X_Linkwright_Token="")[0] == 403
+        assert asked(studio, "folder", {}, X_Linkwright_Token="guess")[0] == 403
+        assert asked(studio, "folder", {}, Host="evil.example")[0] == 403
+        assert asked(studio, "folder", {}, Host=f"evil.example:{studio.server_port}")[0] == 403
+        assert asked(studio, "folder", {}, Origin="https://evil.example")[0] == 403
+        assert asked(studio, "folder", {}, Origin="null")[0] == 403
+        assert asked(studio, "folder", {}, Content_Type="text/plain")[0] == 404
         connection = http.client.HTTPConnection("127.0.0.1", studio.server_port)
         for path, status in (("/", 403), ("/?token=guess", 403), ("/../pyproject.toml", 404), ("/engine.mjs", 404)):
             connection.request("GET", path)
@@ -253,7 +253,7 @@ def test_only_this_page_may_ask(tmp_path: Path) -> None:
 def test_no_socket_is_opened_for_other_pages(tmp_path: Path) -> None:
     """A hijack of web sockets: the server takes none, whoever asks and wherever."""
     with serving(tmp_path) as studio:
-        for path in ("/", f"/?token={studio.token}", "/api/files", "/ws"):
+        for path in ("/", f"/?token={studio.token}", "/api/folder", "/ws"):
             connection = http.client.HTTPConnection("127.0.0.1", studio.server_port, timeout=20)
             headers = {
                 "Upgrade": "websocket",

@@ -1,7 +1,7 @@
 // What is typed in the dock: demands of a task, wishes of an optimisation; the order of a sweep.
 import assert from "node:assert/strict";
 import test from "node:test";
-import { pasted, placesOf, type Task, written } from "../src/studio/dock/demands";
+import { pasted, type Task, written } from "../src/studio/dock/demands";
 import { outwards } from "../src/studio/dock/sweep";
 import { parted, ranged, wished, writtenWish } from "../src/studio/dock/wish";
 
@@ -33,7 +33,6 @@ test("what is empty, and what is so by itself, stays out", () => {
 
 test("rows are numbers; a pose without an angle is a place", () => {
   assert.deepEqual(written(TASK, { poses: [[0, 10, 30], [5, 12, null]], pivot: [[1, 2]] }), { poses: [[0, 10, 30], [5, 12]], pivot: [1, 2] });
-  assert.deepEqual(placesOf([[1000, 500], [null, 2]]), [[1, 0.5]]);
 });
 
 test("a table of a spreadsheet becomes rows", () => {

@@ -245,7 +245,8 @@ def _way(at: Places, found: Places) -> float:
 
 
 def _agrees(draft: Draft, wanted: list[Condition], at: Places) -> bool:
-    return all(abs(each) <= AGREED * draft.step for condition in wanted for each in condition.residual(at))
+    near = AGREED * draft.step
+    return all(abs(each) <= near for condition in wanted for each in condition.residual(at))
 
 
 def move(draft: Draft, at: Places, found: Places) -> None:

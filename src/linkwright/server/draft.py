@@ -36,15 +36,23 @@ class Draft(Document):
         #: New names of elements: kind, from, to.
         self.renamed: list[dict[str, str]] = []
         self._tree_of: tuple[str, Node | None] = "", None
+        self._picture_of: tuple[str, Plain] | None = None
 
     def picture(self) -> Plain:
-        """What can be drawn by the text alone."""
-        return picture_of(self.root)
+        """What can be drawn by the text alone; read, not changed."""
+        if self._picture_of is None or self._picture_of[0] != self.text:
+            self._picture_of = self.text, picture_of(self.root)
+        return self._picture_of[1]
 
     def shown(self) -> Plain:
         """What can be drawn, with the points that no drawing gives."""
         found = self.picture()
         return {**found, "points": {**self.places, **found["points"]}}
+
+    @property
+    def taken(self) -> set[str]:
+        """Names of links and joints, which share them."""
+        return {*self.picture()["links"], *(key for key, _unused in self.section("joints") or ())}
 
     @property
     def step(self) -> float:

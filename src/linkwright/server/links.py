@@ -33,12 +33,12 @@ def link(draft: Draft, action: Mapping[str, Any]) -> None:
 
 def fresh_link(draft: Draft, stem: str = "link") -> str:
     """A name for a link."""
-    return fresh(stem, [*draft.picture()["links"], *(key for key, _unused in draft.section("joints") or ())])
+    return fresh(stem, draft.taken)
 
 
 def fresh_block(draft: Draft) -> str:
     """A name for a block: slider, then with numbers."""
-    known = {*draft.picture()["links"], *(key for key, _unused in draft.section("joints") or ())}
+    known = draft.taken
     return "slider" if "slider" not in known else next(n for k in count(2) if (n := f"slider{k}") not in known)
 
 

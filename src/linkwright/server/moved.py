@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from contextlib import suppress
 from typing import NamedTuple
 
@@ -43,7 +44,7 @@ def moved(mechanism: Mechanism) -> Moved:
 
 def gap_data(gap: Gap, mechanism: Mechanism, language: str) -> Plain:
     """A gap as the studio draws it, with its remedies."""
-    factor = 57.29577951308232 if gap.rotary else 1e3
+    factor = math.degrees(1.0) if gap.rotary else 1e3
     arms = gap.arms or ()
     rocks = mechanism.cycle is not None and mechanism.cycle.rock is not None and mechanism.cycle.rock.ends is None
     mended = remedies(gap, rocks=rocks)

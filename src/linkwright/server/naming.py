@@ -149,7 +149,6 @@ def by_function(draft: Draft) -> None:
         others = [name for name in turning if name != driven]
         wanted["rocker"] = [name for name in others if ends & set(links[name])][:1]
     for name, found in wanted.items():
-        taken = {*draft.picture()["links"], *(key for key, _unused in draft.section("joints") or ())}
-        if found and GENERIC.fullmatch(found[0]) and name not in taken:
+        if found and GENERIC.fullmatch(found[0]) and name not in draft.taken:
             change(draft, "link", found[0], name)
             draft.made[:] = [name if each == found[0] else each for each in draft.made]

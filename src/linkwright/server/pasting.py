@@ -34,7 +34,7 @@ class _Copy:
     def __init__(self, draft: Draft, source: Draft, links: list[str], points: list[str], mirror: str) -> None:
         self.mirror = mirror
         fixed = source.picture()["fixed"]
-        taken = {*draft.picture()["links"], *(key for key, _unused in draft.section("joints") or ())}
+        taken = draft.taken
         self.links: dict[str, str] = {}
         for name in links:
             self.links[name] = _numbered(name, {*taken, *self.links.values()})

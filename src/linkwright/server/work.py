@@ -11,7 +11,7 @@ from dataclasses import replace
 from linkwright.core.data import Plain
 from linkwright.errors import Finding, LinkwrightError, ModelError, with_remedy
 from linkwright.file_check import checked_text
-from linkwright.files.model_file import gallery_names, read_text
+from linkwright.files.model_file import read_text
 from linkwright.files.source import read_source
 from linkwright.files.write import Document
 from linkwright.server.agreement import agree, unmet
@@ -44,7 +44,6 @@ class Work:
         self._solving = threading.Lock()
         self._foreseen: tuple[str, str, str, Plain] | None = None
         self.answers: Mapping[str, Callable[[Plain], Plain]] = {
-            "files": lambda asked: {"files": files.names(), "drafts": files.unsaved(), "gallery": gallery_names()},
             "folder": lambda asked: listing(files, language_of(asked)),
             "thumbnail": self._thumbnail,
             "rename": lambda a: files.rename(text(a, "name"), text(a, "to"), text(a, "version")),

@@ -57,7 +57,7 @@ def test_faults_of_the_program_are_said_and_the_server_goes_on(
         assert "ZeroDivisionError" in found["error"] and "by nought" in found["error"]
         number = asked(studio, "curve", {"points": [], "closed": True})[1]["number"]
         assert "by nought" in list(followed(studio, number))[-1]["sentence"]
-        assert asked(studio, "files", {})[0] == 200
+        assert asked(studio, "folder", {})[0] == 200
         assert "failing" in capsys.readouterr().err
 
 

@@ -1,5 +1,4 @@
 // Demands of a task as they are typed, and as the file takes them.
-import type { Vec } from "../../shapes";
 
 export interface Demand {
   key: string;
@@ -69,5 +68,3 @@ export function pasted(text: string, columns: number): (number | null)[][] {
   return rows.filter((row) => row.length > 1 && row.every(Number.isFinite)).map((row) => Array.from({ length: columns }, (_, k) => row[k] ?? null));
 }
 
-/** Places of typed rows, m. */
-export const placesOf = (rows: Typed | undefined): Vec[] => (Array.isArray(rows) ? rows.filter(complete).map(([x, y]) => [x! / 1e3, y! / 1e3]) : []);

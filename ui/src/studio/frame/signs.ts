@@ -136,4 +136,3 @@ const SIGNS = {
 
 export type IconName = keyof typeof SIGNS;
 export const strokes = (name: IconName): readonly Stroke[] => SIGNS[name] as Stroke[];
-export const ICONS = Object.keys(SIGNS) as IconName[];

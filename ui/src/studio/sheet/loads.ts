@@ -196,16 +196,6 @@ export function offLoad(at: Vec, { form, from, to }: DrawnLoad): number {
   return Math.abs(Math.hypot(at[0] - from[0], at[1] - from[1]) - ROUND);
 }
 
-/** The load under a place of the screen, the nearest within reach. */
-export function loadAt(at: Vec, all: DrawnLoad[], reach = 8): string | null {
-  let best = reach, found: string | null = null;
-  for (const each of all) {
-    const off = offLoad(at, each);
-    if (off < best) [best, found] = [off, each.name];
-  }
-  return found;
-}
-
 // An arrow's head: its length and half its width, px.
 const HEAD = 10, HALF = 3.7;
 const place = ([x, y]: Vec) => `${x.toFixed(1)} ${y.toFixed(1)}`;

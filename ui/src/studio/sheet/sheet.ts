@@ -431,7 +431,7 @@ export class Board implements Sheet {
   async act(actions: Action[]): Promise<string[] | null> {
     const { bench, tool } = this, { desk, page } = bench;
     this.whole = false;
-    const made = await desk.act(actions.map((action) => ({ ...action, places: { ...this.places, ...(action.places as Record<string, Vec> | undefined) } })));
+    const made = await desk.act(actions);
     if (made) bench.set({ used: { ...bench.settings.value.used, [tool.name]: (bench.settings.value.used[tool.name] ?? 0) + 1 } });
     else if (page.note.value) this.say(page.note.value);
     this.touch();
@@ -447,12 +447,6 @@ export class Board implements Sheet {
     if (name in scene.links) return { kind: "link", name };
     if (scene.points.has(name)) return { kind: "point", name };
     return name in scene.loads ? { kind: "load", name } : null;
-  }
-
-  /** Where points are drawn that the text gives no places. */
-  private get places(): Record<string, Vec> {
-    const { placed = [], points = {} } = this.picture ?? {};
-    return Object.fromEntries(placed.filter((name) => name in points).map((name) => [name, points[name]]));
   }
 
   refuse(key: string, values: Record<string, string> = {}): void {
