@@ -161,7 +161,7 @@ export class Desk {
   private queue: Promise<void> = Promise.resolve();
   private ready: Promise<void> = Promise.resolve();
   private saving: Promise<void> = Promise.resolve();
-  /** Actions of drawing that are not in the text yet. */
+  /** Changes that are on their way into the text. */
   pending = 0;
 
   constructor(readonly page: Page) {
@@ -446,13 +446,18 @@ export class Desk {
 
   /** Writes dimensions (SI) into the text as it is then; false where it does not admit them. */
   async write(values: Values): Promise<boolean> {
-    for (;;) {
-      const text = this.text.value, set = await this.ask<{ text: string }>("set", { text, values });
-      if (!set) return false;
-      if (text !== this.text.value) continue;
-      this.moved = { before: text, text: plain(set.text) };
-      this.change(set.text);
-      return true;
+    this.pending++;
+    try {
+      for (;;) {
+        const text = this.text.value, set = await this.ask<{ text: string }>("set", { text, values });
+        if (!set) return false;
+        if (text !== this.text.value) continue;
+        this.moved = { before: text, text: plain(set.text) };
+        this.change(set.text);
+        return true;
+      }
+    } finally {
+      this.pending--;
     }
   }
 
