@@ -26,6 +26,7 @@ STAGES = (
     ("kinetostatics",),
     ("dyads",),
     ("cycle",),
+    ("dynamics",),
     ("analysis", "machine", "worked_solutions"),
     ("designs", "synthesis", "cams", "gears", "parts"),
     ("reports", "plotting", "exporters", "page", "validation", "course", "sheets"),
