@@ -60,6 +60,12 @@ class Site(Protocol):
 
     @property
     def motion(self) -> Described: ...
+
+    @property
+    def time(self) -> Scalar:
+        """Time, s."""
+        ...
+
     def place(self, link: str, point: str) -> Vec: ...
     def distance(self, link: str, a: str, b: str) -> Scalar: ...
     def velocity(self, link: str, point: str) -> Vec: ...
@@ -71,6 +77,18 @@ class Site(Protocol):
 
     def turning(self, link: str, against: str) -> Scalar:
         """Angular velocity of a link against another one; zero at rest, where digits would tell its sign."""
+        ...
+
+    def turning_second(self, link: str, against: str) -> Scalar:
+        """Its rate, rad/s²; zero where inertia is left out."""
+        ...
+
+    def sliding_second(self, joint: str) -> Scalar:
+        """Acceleration of the block of a prismatic joint along its guide, m/s²; zero where inertia is left out."""
+        ...
+
+    def drive_sense(self, link: str, against: str) -> Scalar:
+        """1, or -1 where a driver turns or moves a link against another one the other way, by its nominal speed."""
         ...
 
     def heading_of(self, link: str, point: str) -> Vec:

@@ -34,6 +34,8 @@ class Law(ABC):
     """
 
     key: ClassVar[str]
+    #: Whether it says the coordinate at a time.
+    prescribed: ClassVar[bool] = True
     rotary: bool
 
     @abstractmethod

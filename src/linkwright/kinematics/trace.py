@@ -49,7 +49,10 @@ class MotionTrace:
         return own | self.angles.carried
 
     def moving(self, rate: Scalar, second: Scalar, dimension: str) -> Scalar:
-        """A rate, with its own rate, of an ``angle`` or a ``length``, zero at rest."""
+        """A rate, with its own rate, of an ``angle`` or a ``length``, zero at rest; the rate itself where drivers are
+        free, as none of its digits is rounding then."""
+        if not all(driver.law.prescribed for driver in self.mechanism.drivers.values()):
+            return rate
         pace, turning = (self.trace.parameter(pace_name(each)) for each in (dimension, "angle"))
         return moving(rate, second, pace, turning)
 

@@ -40,6 +40,11 @@ def acts_name(load: str) -> str:
     return f"{ACTS}:{load}"
 
 
+def sense_name(driver: str) -> str:
+    """Name of the parameter that is the sign of a driver's nominal speed."""
+    return f"sense:{driver}"
+
+
 def constant_name(load: str, field: str) -> str:
     """Name of the parameter that holds a number of a load that is no dimension."""
     return f"constant:{load}:{field}"
@@ -87,16 +92,27 @@ class TracedSite:
     :class:`linkwright.applied_loads.signals.Course` and :class:`linkwright.applied_loads.strokes.Turning`.
 
     ``along_input``: the magnitude is traced, with ``phase_known`` all but its phase; else one that varies is an input
-    of the program per position.
+    of the program per position. ``inertia`` False: accelerations count as zero.
     """
 
     def __init__(
-        self, motion: MotionTrace, load: Load, *, along_input: bool = False, phase_known: bool = False
+        self,
+        motion: MotionTrace,
+        load: Load,
+        *,
+        along_input: bool = False,
+        phase_known: bool = False,
+        inertia: bool = True,
     ) -> None:
         self.motion = motion
         self.load = load
         self.along_input = along_input
         self.phase_known = phase_known
+        self.inertia = inertia
+
+    @property
+    def time(self) -> Scalar:
+        return self.motion.trace.position("time")
 
     def place(self, link: str, point: str) -> Vec:
         state = self.motion.states[link]
@@ -117,6 +133,19 @@ class TracedSite:
 
     def turning(self, link: str, against: str) -> Scalar:
         return self.motion.turning(link, against)
+
+    def turning_second(self, link: str, against: str) -> Scalar:
+        return self.motion.states[link].alpha - self.motion.states[against].alpha if self.inertia else 0.0
+
+    def sliding_second(self, joint: str) -> Scalar:
+        return MotionOutputs(self.motion).slide(joint)[2] if self.inertia else 0.0
+
+    def drive_sense(self, link: str, against: str) -> Scalar:
+        for driver in self.motion.mechanism.drivers.values():
+            if {link, against} == {driver.link, driver.relative_to}:
+                own = self.motion.trace.parameter(sense_name(driver.name))
+                return own if link == driver.link else -own
+        return 1.0
 
     def heading_of(self, link: str, point: str) -> Vec:
         velocity = self.velocity(link, point)

@@ -26,6 +26,7 @@ from linkwright.kinetostatics.friction import (
     pressing,
     solved_friction,
 )
+from linkwright.kinetostatics.load_site import TracedSite
 from linkwright.kinetostatics.named_outputs import Named
 from linkwright.kinetostatics.self_check import ForceChecks
 from linkwright.kinetostatics.trace import ForceOutputs, ForceTrace, Size, trace_forces
@@ -43,11 +44,13 @@ class ForceSolver:
         inertia: bool = True,
         along_input: frozenset[str] = frozenset(),
         rubbing: bool = False,
+        site: type[TracedSite] = TracedSite,
     ) -> None:
         self.motion = motion
         self.inertia = inertia
         self.along_input = along_input
         self.rubbing = rubbing
+        self.site = site
 
     def __getstate__(self) -> dict[str, Any]:
         """All but what every process makes for itself."""
@@ -57,7 +60,11 @@ class ForceSolver:
     def programs(self) -> ForcePrograms:
         """The programs of the mechanism's shape."""
         return force_programs(
-            self.motion.programs, inertia=self.inertia, along_input=self.along_input, rubbing=self.rubbing
+            self.motion.programs,
+            inertia=self.inertia,
+            along_input=self.along_input,
+            rubbing=self.rubbing,
+            site=self.site,
         )
 
     @cached_property
@@ -123,7 +130,15 @@ def _no_angle(link: str) -> NoReturn:
 class ForcePrograms:
     """The traced forces of all mechanisms of one shape, and the programs made of them."""
 
-    def __init__(self, motion: MotionPrograms, inertia: bool, along_input: frozenset[str], rubbing: bool) -> None:
+    def __init__(
+        self,
+        motion: MotionPrograms,
+        inertia: bool,
+        along_input: frozenset[str],
+        rubbing: bool,
+        site: type[TracedSite],
+    ) -> None:
+        self.site = site
         self.motion = motion
         self.lock = motion.lock
         self.inertia = inertia
@@ -161,7 +176,12 @@ class ForcePrograms:
     def _under(self, wrenches: Wrenches, **teeth: Size) -> ForceTrace:
         """The forces under further wrenches."""
         return trace_forces(
-            self.motion.motion, inertia=self.inertia, extra=wrenches, along_input=self.along_input, **teeth
+            self.motion.motion,
+            inertia=self.inertia,
+            extra=wrenches,
+            along_input=self.along_input,
+            site=self.site,
+            **teeth,
         )
 
     @locked_property
@@ -178,7 +198,7 @@ class ForcePrograms:
         """The program for some outputs, of the forces or of the motion."""
         with self.lock:
             if names not in self._programs:
-                values = {name: self._value(name) for name in names}
+                values = {name: self.value(name) for name in names}
                 self._programs[names] = NumpyProgram(Program.of(self.motion.motion.trace, values))
             return self._programs[names]
 
@@ -187,7 +207,8 @@ class ForcePrograms:
         """Outputs in the user's words."""
         return Named(self, _no_angle, _no_angle)
 
-    def _value(self, name: str) -> Scalar:
+    def value(self, name: str) -> Scalar:
+        """The traced value of a row of the forces or of the motion."""
         if name.startswith(_WORDS):
             return self.named.quantity(name.removeprefix(_WORDS)).value
         if name.startswith(_CAUSED):
@@ -199,11 +220,16 @@ class ForcePrograms:
 
 
 def force_programs(
-    motion: MotionPrograms, *, inertia: bool = True, along_input: frozenset[str] = frozenset(), rubbing: bool = False
+    motion: MotionPrograms,
+    *,
+    inertia: bool = True,
+    along_input: frozenset[str] = frozenset(),
+    rubbing: bool = False,
+    site: type[TracedSite] = TracedSite,
 ) -> ForcePrograms:
     """The programs of the forces that belong to those of a motion; arguments as for ``trace_forces``, ``rubbing``:
     the friction is traced, else an input per position."""
-    key = (inertia, along_input, rubbing)
+    key = (inertia, along_input, rubbing, site)
     return _cache.get(motion, key, lambda: ForcePrograms(motion, *key))
 
 

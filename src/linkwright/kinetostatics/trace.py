@@ -118,18 +118,19 @@ def trace_forces(
     extra: Mapping[str, list[Wrench]] | None = None,
     along_input: Set[str],
     size: Size = lambda _, force: absolute(force),
+    site: type[TracedSite] = TracedSite,
 ) -> ForceTrace:
     """Traces all joint forces of a traced motion.
 
     ``inertia`` False leaves the inertia forces out (static analysis); ``extra``: further wrenches by name, such
     as the friction of joints; ``along_input``: loads whose magnitude is traced over the input; ``size``: of the force
-    between the teeth of a pair.
+    between the teeth of a pair; ``site``: how loads see the mechanism.
     """
     forces = ForceTrace(motion)
     for name, load in motion.mechanism.loads.items():
         partly = acts_name(name) in along_input
-        site = TracedSite(motion, load, along_input=partly or name in along_input, phase_known=partly)
-        forces.wrenches[name] = list(load.wrenches(site))
+        seen = site(motion, load, along_input=partly or name in along_input, phase_known=partly, inertia=inertia)
+        forces.wrenches[name] = list(load.wrenches(seen))
     forces.wrenches |= extra or {}
     demands = {name: Demand() for name in ("frame", *motion.mechanism.links)}
     for name in motion.mechanism.links:

@@ -1,0 +1,250 @@
+"""The equation of motion M(q) q'' + h(q, q', t) = 0 of a mechanism under forces, from the formulas of joint forces.
+
+A driver's effort T is affine in the accelerations of the inputs. Where nothing drives but actuators and loads it is
+zero: M is the exact derivative of T by the accelerations, h is T without them. ½ M' q'² never has to be formed, for
+it is in h. With friction in joints T bends with the accelerations; Newton's steps on its exact slope then find q''.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.core.inputs import Input, driven
+from linkwright.core.outputs import row_name
+from linkwright.dynamics.site import FreeSite, freed, load_numbers
+from linkwright.dynamics.switches import Held, Switches
+from linkwright.errors import LinkwrightError
+from linkwright.formula.differentiation import slope
+from linkwright.formula.linear_algebra import determinant, product, solution
+from linkwright.formula.numpy_backend import numpy_program
+from linkwright.formula.program import Program
+from linkwright.formula.trace import Scalar, Trace, cos, sin
+from linkwright.kinematics.assembly import Assembly, modal_groups
+from linkwright.kinematics.groups import jacobian
+from linkwright.kinematics.programs import Manner, motion_programs
+from linkwright.kinematics.solver import MotionSolver
+from linkwright.kinetostatics.solver import ForceSolver
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.words import _
+
+#: Newton's steps for the accelerations where joints rub.
+RUBBING_STEPS = 4
+#: Newton's steps of groups without closed form in one evaluation.
+ITERATIONS = 2
+
+
+class EquationOfMotion:
+    """The equation of motion of a mechanism; every driver's coordinate is free but the ``prescribed`` ones.
+
+    Its programs take positions (all of them inputs per lane): ``q:NAME``, ``w:NAME`` of every driver (rad, rad/s or
+    m, m/s), ``second:NAME`` of the prescribed ones, ``time``, ``switch:K`` (1 or 0; see ``Switches``), ``mode:GROUP``
+    where ``flipping``, the chain coordinates of groups without closed form, and ``varied`` dimensions.
+    Outputs: ``a:NAME`` q'' of the free ones; ``M:A:B``, ``h:A``; ``power`` (W) of all forces, ``kinetic`` (J), whose
+    difference to the work since the start is the residual of a run; ``gap:K``; ``quality:GROUP``, 0 where a group is
+    singular; ``outcome``; ``next:STATE``.
+
+    Source: d'Alembert's principle in the inputs (Lagrange's equations); Wittenburg, Dynamics of Multibody Systems.
+    """
+
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        *,
+        prescribed: Iterable[str] = (),
+        varied: Iterable[str] = (),
+        flipping: bool = False,
+        assembly: Assembly | None = None,
+    ) -> None:
+        self.source = mechanism
+        self.mechanism = freed(mechanism)
+        if not self.mechanism.drivers:
+            raise LinkwrightError(
+                _(
+                    "{name!r} has no driver, so nothing says which coordinates its motion is found in; add a driver "
+                    "with free: true",
+                    code="dynamics.no_coordinate",
+                    name=mechanism.name,
+                )
+            )
+        self.names = list(self.mechanism.drivers)
+        kept = set(prescribed)
+        self.free = [name for name in self.names if name not in kept]
+        self.rotary = {name: each.law.rotary for name, each in self.mechanism.drivers.items()}
+        self.varied = frozenset(varied)
+        manner = Manner(self.varied, iterations=ITERATIONS)
+        if flipping:
+            groups = modal_groups(motion_programs(self.mechanism, manner).structure)
+            manner = Manner(self.varied, frozenset(groups), ITERATIONS)
+        self.solver = MotionSolver(self.mechanism, manner, assembly)
+        self.load_numbers, self.tables = load_numbers(self.mechanism)
+        magnitudes = frozenset(self.mechanism.loads)
+        self.rubs = any(joint.friction_arm for joint in self.mechanism.joints.values())
+        self.forces = ForceSolver(self.solver, along_input=magnitudes, rubbing=self.rubs, site=FreeSite)
+        self.plain = ForceSolver(self.solver, along_input=magnitudes, site=FreeSite)
+        self.resting = ForceSolver(self.solver, along_input=magnitudes, inertia=False, site=FreeSite)
+
+    # numbers and inputs ---------------------------------------------------------------------------------
+    @cached_property
+    def numbers(self) -> dict[str, float]:
+        """Values of all parameters of the programs."""
+        return {**self.solver.nominal.parameters, **self.load_numbers}
+
+    @cached_property
+    def start(self) -> Floats:
+        """The drivers' coordinates in the drawing, else where their laws begin, (drivers,) rad or m."""
+        return np.array([self.solver.assembly.inputs[name] for name in self.names])
+
+    @cached_property
+    def groups(self) -> list[str]:
+        """The groups that close a loop."""
+        return [name for name, placed in self.solver.motion.placed.items() if placed.cuts]
+
+    @cached_property
+    def modes(self) -> list[str]:
+        """The groups whose assembly modes are inputs."""
+        return [name for name in modal_groups(self.solver.structure) if name in self.solver.manner.flipping]
+
+    @cached_property
+    def states(self) -> dict[str, float]:
+        """Chain coordinates of the groups without closed form, in the drawing."""
+        return {name: self.solver.assembly.states[name] for name in self.solver.motion.next_states}
+
+    # traced ---------------------------------------------------------------------------------------------
+    @cached_property
+    def _source(self) -> dict[str, Scalar]:
+        """Efforts with their derivatives by the accelerations, and what else is taken from the motion's trace."""
+        motion = self.solver.motion
+        seconds = {name: motion.trace.position(Input("second", name).name) for name in self.names}
+        out: dict[str, Scalar] = {}
+        for name in self.names:
+            effort, plain = (each.outputs.value(row_name("effort", name)) for each in (self.forces, self.plain))
+            out[f"T:{name}"] = effort
+            out[f"S:{name}"] = self.resting.outputs.value(row_name("effort", name))
+            out |= {f"T:{name}:{other}": slope(effort, {second: 1.0}) for other, second in seconds.items()}
+            out |= {f"M:{name}:{other}": slope(plain, {second: 1.0}) for other, second in seconds.items()}
+        if self.rubs:
+            out["rubbing"] = self.forces.forces.friction_power
+        out |= {f"quality:{group}": self._quality(group) for group in self.groups}
+        out |= {f"next:{name}": value for name, value in motion.next_states.items()}
+        return {**out, "outcome": motion.outcome}
+
+    def _kinematic(self) -> list[Scalar]:
+        """All that the motion is found from."""
+        found = [self.solver.motion.outcome]
+        for state in self.solver.motion.states.values():
+            place, velocity, direction = state.pose.place, state.velocity, state.pose.direction
+            found += [place.x, place.y, direction.x, direction.y, velocity.x, velocity.y, state.omega, state.alpha]
+        return found
+
+    def _quality(self, group: str) -> Scalar:
+        """Square of the determinant of a group's Jacobian over those of its columns: of two pinned bars the square of
+        the sine between them.
+
+        A dyad's own square root does not do: where the outer joints of equal bars coincide it has its best value, and
+        the position is open.
+        """
+        motion = self.solver.motion
+        placed = motion.placed[group]
+        matrix = jacobian(placed.group, placed.cuts, motion.poses, motion.dimensions)
+        value = determinant(matrix) if len(matrix) > 1 else matrix[0][0]
+        size: Scalar = 1.0
+        for column in zip(*matrix, strict=True):
+            size = size * sum((each * each for each in column), 0.0)
+        return value * value / size
+
+    @cached_property
+    def switches(self) -> Switches:
+        """The comparisons that are held between events."""
+        seconds = {Input("second", name).name for name in self.names}
+        return Switches.of(self.solver.motion.trace, self._source.values(), self._kinematic(), seconds)
+
+    @cached_property
+    def traced(self) -> tuple[Trace, dict[str, Scalar | bool]]:
+        """All outputs in a trace of their own."""
+        t = Trace()
+        zero: dict[str, Scalar] = dict.fromkeys(self.names, 0.0)
+        fixed = [name for name in self.names if name not in self.free]
+        seconds = zero | {name: t.position(Input("second", name).name) for name in fixed}
+        found, gaps = self._inlined(t, seconds)
+        second = self._accelerations(found, seconds)
+        for _step in range(RUBBING_STEPS if self.rubs else 0):
+            found, _again = self._inlined(t, second)
+            second = self._accelerations(found, second)
+        if self.rubs or fixed:
+            found, _again = self._inlined(t, second)
+        out: dict[str, Scalar | bool] = {f"a:{name}": second[name] for name in self.free}
+        out |= self._energies(t, found, fixed)
+        out |= {name: value for name, value in found.items() if not name.startswith("T:")}
+        out |= {f"h:{name}": found[f"T:{name}"] for name in self.names} | gaps
+        return t, out
+
+    def _accelerations(self, found: Mapping[str, Scalar | bool], second: Mapping[str, Scalar]) -> dict[str, Scalar]:
+        """One step of Newton's method for the free accelerations: the last one where nothing rubs."""
+        matrix = [[_number(found[f"T:{a}:{b}"]) for b in self.free] for a in self.free]
+        change = solution(matrix, [-_number(found[f"T:{a}"]) for a in self.free]) if self.free else []
+        return {**second, **{name: second[name] + each for name, each in zip(self.free, change, strict=True)}}
+
+    def _energies(self, t: Trace, found: Mapping[str, Scalar | bool], fixed: Sequence[str]) -> dict[str, Scalar]:
+        """Power of all forces, of the prescribed inputs as well, and kinetic energy."""
+        rates = [t.position(f"w:{name}") for name in self.names]
+        power: Scalar = 0.0
+        for name, rate in zip(self.names, rates, strict=True):
+            power = power - _number(found[f"S:{name}"]) * rate
+            if name in fixed:
+                power = power + _number(found[f"T:{name}"]) * rate
+        if self.rubs:
+            power = power - _number(found["rubbing"])
+        mass = [[_number(found[f"M:{a}:{b}"]) for b in self.names] for a in self.names]
+        kinetic: Scalar = 0.0
+        for rate, row in zip(rates, product(mass, rates), strict=True):
+            kinetic = kinetic + 0.5 * rate * row
+        return {"power": power, "kinetic": kinetic}
+
+    def _inlined(self, t: Trace, seconds: Mapping[str, Scalar]) -> tuple[dict[str, Scalar | bool], dict[str, Scalar]]:
+        source, held = self.switches.program(self._source)
+        replay = Held(source, held, t, self._given(t, source, seconds))
+        return replay.outputs, replay.gaps
+
+    def _given(self, t: Trace, source: Program, seconds: Mapping[str, Scalar]) -> dict[str, Scalar]:
+        """The inputs of a program of the motion's trace as values of another trace."""
+        given: dict[str, Scalar] = {}
+        for name in self.names:
+            course = (t.position(f"q:{name}"), t.position(f"w:{name}"), seconds[name])
+            given |= driven(name, self.rotary[name], course, cos, sin)
+        carried = self.solver.motion.next_states
+        for name in source.fields:
+            given[name] = t.position(name) if name in carried else 0.0
+        given |= {name: t.position(name) for name in source.parameters if name in self.varied}
+        return given | {"time": t.position("time"), "input": t.position(f"q:{self.names[0]}")}
+
+    # programs -------------------------------------------------------------------------------------------
+    def program(self, names: Iterable[str]) -> Program:
+        """The program of some outputs."""
+        t, out = self.traced
+        return Program.of(t, {name: out[name] for name in names})
+
+    def row_program(self, names: Iterable[str]) -> Program:
+        """The program of rows of the motion and its forces (see ``core.outputs``) at given accelerations
+        ``second:NAME`` of all inputs, switches held."""
+        t = Trace()
+        seconds = {name: t.position(Input("second", name).name) for name in self.names}
+        source, held = self.switches.program({name: self.forces.programs.value(name) for name in names})
+        return Program.of(t, Held(source, held, t, self._given(t, source, seconds)).outputs)
+
+    def evaluate(self, names: Iterable[str], given: Mapping[str, Floats | float], count: int) -> Floats:
+        """Outputs (names, n) at inputs by name, arrays (n,) or numbers; 0 for those that are not given."""
+        return self.run(self.program(names), given, count)
+
+    def run(self, program: Program, given: Mapping[str, Floats | float], count: int) -> Floats:
+        """The outputs of one of its programs, likewise."""
+        inputs = {name: np.zeros(count) + given.get(name, 0.0) for name in program.positions}
+        numbers = [self.numbers[name] for name in program.parameters]
+        return np.asarray(numpy_program(program).run(numbers, inputs, length=count, tables=self.tables))
+
+
+def _number(value: Scalar | bool) -> Scalar:
+    return float(value) if isinstance(value, bool) else value

@@ -1,0 +1,123 @@
+"""How loads see a mechanism whose inputs are free: phases go by where the input is and which way it moves."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from linkwright.applied_loads.base import Load
+from linkwright.applied_loads.signals import BetweenLimits
+from linkwright.applied_loads.strokes import TURN, outermost, strokes
+from linkwright.core.inputs import Input
+from linkwright.drivers.base import Driver
+from linkwright.drivers.constant_speed import ConstantSpeed
+from linkwright.drivers.free import Free
+from linkwright.errors import LinkwrightError
+from linkwright.formula.table import Table
+from linkwright.formula.trace import Scalar, select
+from linkwright.kinematics.solve import solve_motion
+from linkwright.kinetostatics.load_site import TracedSite, limit_name, sense_name, value_name
+from linkwright.kinetostatics.signals import MotionSignals, numbers_of_loads
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.words import _
+
+#: A slide never comes round: so many times the size of its machine.
+_FAR = 1e6
+
+
+class FreeSite(TracedSite):
+    """View of one load of a mechanism whose first driver moves as forces will have it, to and fro.
+
+    A phase between two limits of an output is where the input is between them, going from the one to the other.
+    """
+
+    @property
+    def sense(self) -> Scalar:
+        driver = next(iter(self.motion.mechanism.drivers))
+        rate = self.motion.trace.position(Input("rate", driver).name)
+        return select(rate >= 0.0, 1.0, -1.0)
+
+    @property
+    def heading(self) -> Scalar:
+        return self.sense
+
+    @property
+    def along(self) -> Scalar:
+        return self.input
+
+    @property
+    def lap(self) -> Scalar:
+        return TURN if self.rotary else _FAR * self.motion.mechanism.size
+
+    def share_of_input(self, phase: BetweenLimits, share: Scalar) -> Scalar:
+        return share
+
+
+def freed(mechanism: Mechanism) -> Mechanism:
+    """The mechanism with its drivers' coordinates free, and its actuators among its loads.
+
+    A constant speed would be folded into the programs, so that the coordinate's second derivative were known.
+    """
+    drivers = {name: _free(each) for name, each in mechanism.drivers.items()}
+    loads: Mapping[str, Load] = {**mechanism.loads, **getattr(mechanism, "actuators", {})}
+    return replace(mechanism, drivers=drivers, loads=loads, cycle=None)
+
+
+def _free(driver: Driver) -> Driver:
+    law = driver.law.own
+    if isinstance(law, Free):
+        return replace(driver, law=law)
+    return replace(driver, law=Free(law.at(0.0), law.constant_speed or 0.0, law.rotary))
+
+
+def load_numbers(mechanism: Mechanism) -> tuple[dict[str, float], dict[str, Table]]:
+    """What the loads of a freed mechanism take besides dimensions: numbers by the names of parameters, and tables.
+
+    Raises:
+        LinkwrightError: a load goes by limits that an output does not have over the input's range, or by the angle of
+            a link that turns through.
+    """
+    along = numbers_of_loads(mechanism.loads.values(), mechanism)
+    numbers = dict(along.constants)
+    for name, driver in mechanism.drivers.items():
+        nominal = driver.law.nominal if isinstance(driver.law, Free) else driver.law.constant_speed or 0.0
+        numbers[sense_name(name)] = -1.0 if nominal < 0.0 else 1.0
+    if along.outputs or along.angles:
+        signals = _signals(mechanism)
+        for load in mechanism.loads.values():
+            phase = load.magnitude.limits
+            if phase is not None:
+                numbers |= _limits(phase, signals)
+        middles = along.middles(signals)
+        if middles is None:
+            raise LinkwrightError(
+                _(
+                    "a load of {name!r} goes by the angle of a link that turns through, which has no value of its "
+                    "own in motion under forces; let it go by the input",
+                    code="dynamics.angle_of_turning_link",
+                    name=mechanism.name,
+                )
+            )
+        numbers |= middles
+    return numbers, dict(along.tables)
+
+
+def _signals(mechanism: Mechanism) -> MotionSignals:
+    """The motion in which limits are found: the first input at constant speed, the others at rest."""
+    speed, drivers = 1.0, {}
+    for name, driver in mechanism.drivers.items():
+        drivers[name] = replace(driver, law=ConstantSpeed(speed, driver.law.at(0.0), driver.law.rotary))
+        speed = 0.0
+    bare = replace(mechanism, drivers=drivers, loads={})
+    return MotionSignals(solve_motion(bare, failures="mark"))
+
+
+def _limits(phase: BetweenLimits, signals: MotionSignals) -> dict[str, float]:
+    """Where an output has its largest and its smallest value, rad or m of the input, and these values."""
+    strokes(phase, signals)
+    found = {}
+    for kind in ("max", "min"):
+        limit = next(each for each in outermost(signals.limits(phase.output)) if each.kind == kind)
+        found[limit_name(phase.output, kind)] = limit.input
+        found[value_name(phase.output, kind)] = limit.value
+    return found
