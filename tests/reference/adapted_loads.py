@@ -31,11 +31,11 @@ def reference_loads(mechanism: Any, motion: Motion, time: Array) -> list[Load]:
     for load in mechanism.loads.values():
         if load.kind not in KINDS:
             raise NotImplementedError(f"loads of kind {load.kind}")
-        loads.append(KINDS[load.kind](mechanism, load, _Course(mechanism, motion, time)))
+        loads.append(KINDS[load.kind](mechanism, load, Course(mechanism, motion, time)))
     return loads
 
 
-class _Course:
+class Course:
     """The motion as magnitudes and phases see it: time, input, outputs with their rates."""
 
     def __init__(self, mechanism: Any, motion: Motion, time: Array) -> None:
@@ -119,7 +119,7 @@ class _Course:
         """Input and value of an output's largest and smallest value over one turn of a constant-speed driver."""
         law = next(iter(self.mechanism.drivers.values())).law
         time = np.linspace(0.0, 2 * pi / abs(law.speed), 361)
-        turn = _Course(self.mechanism, reference_motion(self.mechanism, time), time)
+        turn = Course(self.mechanism, reference_motion(self.mechanism, time), time)
         values = turn.output(output)[0][:-1]
         found = {}
         for word, k in (("max", int(np.argmax(values))), ("min", int(np.argmin(values)))):
@@ -127,7 +127,7 @@ class _Course:
             found[word] = law.start + law.speed * t, self._near(output, turn, k, t)[0]
         return found
 
-    def _standstill(self, output: Any, turn: _Course, k: int) -> float:
+    def _standstill(self, output: Any, turn: Course, k: int) -> float:
         """Time near time[k] at which the output stands still, by bisection of its rate."""
         step = turn.time[1] - turn.time[0]
         low, high = turn.time[k] - step, turn.time[k] + step
@@ -137,11 +137,11 @@ class _Course:
             low, high = (low, middle) if rates[0] * rates[1] <= 0 else (middle, high)
         return float((low + high) / 2)
 
-    def _near(self, output: Any, turn: _Course, k: int, t: float) -> tuple[float, float]:
+    def _near(self, output: Any, turn: Course, k: int, t: float) -> tuple[float, float]:
         """The output and its rate at a time near time[k]."""
         u, ud, udd = driver_values(self.mechanism, np.array([turn.time[k], t]))
         there = turn.motion.system.motion(turn.motion.q[k], u[0], u[1:], ud[1:], udd[1:])
-        value, rate = _Course(self.mechanism, there, np.array([t])).output(output)
+        value, rate = Course(self.mechanism, there, np.array([t])).output(output)
         return float(value[0]), float(rate[0])
 
 
@@ -155,7 +155,7 @@ def _within(part: Any, passed: Array) -> NDArray[np.bool_]:
     return inside
 
 
-def _force(mechanism: Any, load: Any, course: _Course) -> Load:
+def _force(mechanism: Any, load: Any, course: Course) -> Load:
     at, size = link_points(mechanism, load.on)[load.at], course.magnitude(load)
     if load.components is not None:
         return force_in_space(load.on, at, np.outer(size, load.components))
@@ -173,7 +173,7 @@ def _angle_in_link(mechanism: Any, load: Any) -> float:
     return atan2(by - ay, bx - ax) + (pi / 2 if load.normal_to else 0.0)
 
 
-def _torque(mechanism: Any, load: Any, course: _Course) -> Load:
+def _torque(mechanism: Any, load: Any, course: Course) -> Load:
     return torque(load.on, course.magnitude(load), load.against)
 
 
@@ -181,27 +181,27 @@ def _ends(mechanism: Any, load: Any) -> list[tuple[str, Vec]]:
     return [(end.link, link_points(mechanism, end.link)[end.point]) for end in load.between]
 
 
-def _spring(mechanism: Any, load: Any, course: _Course) -> Load:
+def _spring(mechanism: Any, load: Any, course: Course) -> Load:
     a, b = _ends(mechanism, load)
     return spring(a, b, load.stiffness, load.free_length, load.preload)
 
 
-def _damper(mechanism: Any, load: Any, course: _Course) -> Load:
+def _damper(mechanism: Any, load: Any, course: Course) -> Load:
     a, b = _ends(mechanism, load)
     return damper(a, b, load.damping)
 
 
-def _torsion_spring(mechanism: Any, load: Any, course: _Course) -> Load:
+def _torsion_spring(mechanism: Any, load: Any, course: Course) -> Load:
     a, b = load.links
     return torsion_spring(a, b, load.stiffness, load.free_angle, load.preload)
 
 
-def _torsion_damper(mechanism: Any, load: Any, course: _Course) -> Load:
+def _torsion_damper(mechanism: Any, load: Any, course: Course) -> Load:
     a, b = load.links
     return torsion_damper(a, b, load.damping)
 
 
-def _pressure(mechanism: Any, load: Any, course: _Course) -> Load:
+def _pressure(mechanism: Any, load: Any, course: Course) -> Load:
     joint = mechanism.joints[load.joint]
     area = load.area if load.area is not None else pi * load.bore**2 / 4
     size = course.magnitude(load) * area * (-1.0 if load.pushes == "backward" else 1.0)
@@ -209,7 +209,7 @@ def _pressure(mechanism: Any, load: Any, course: _Course) -> Load:
     return push_along_guide((joint.guide, guide_direction(mechanism, joint)), block, size)
 
 
-KINDS: dict[str, Callable[[Any, Any, _Course], Load]] = {
+KINDS: dict[str, Callable[[Any, Any, Course], Load]] = {
     "force": _force,
     "torque": _torque,
     "spring": _spring,
