@@ -152,6 +152,8 @@ def _of_machine(mechanism: Mechanism, folder: str, *, rests: bool) -> tuple[list
 
     try:
         built = analysed(mechanism)
+        if not all(driver.law.prescribed for driver in mechanism.drivers.values()):
+            return _of_free(mechanism, folder), _facts(mechanism, built)
         swings = _swings(mechanism)
         plain = plainly_passed(
             mechanism, built, TRIED, [output for each in swings.values() for output in each.outputs]
@@ -176,7 +178,20 @@ def _of_machine(mechanism: Mechanism, folder: str, *, rests: bool) -> tuple[list
         *notes,
         *_assumed(mechanism, built),
     ]
-    return found, {"links": len(mechanism.links), "mobility": built.mobility, "class": built.mechanism_class}
+    return found, _facts(mechanism, built)
+
+
+def _facts(mechanism: Mechanism, built: Structure) -> dict[str, object]:
+    """The structure in short."""
+    return {"links": len(mechanism.links), "mobility": built.mobility, "class": built.mechanism_class}
+
+
+def _of_free(mechanism: Mechanism, folder: str) -> list[Finding]:
+    """The findings about a machine with a driver that has no law: it is put together where it begins, not turned."""
+    from linkwright.kinematics.solve import solve_motion
+
+    solve_motion(mechanism, times=[0.0])
+    return [*_of_friction(mechanism), *_of_settings(mechanism, folder, moves=False)]
 
 
 def _assumed(mechanism: Mechanism, structure: Structure) -> list[Finding]:

@@ -16,7 +16,7 @@ STAGES = (
     ("curves", "equations"),
     ("fields", "elements"),
     ("laws",),
-    ("joints", "drivers", "applied_loads"),
+    ("joints", "drivers", "applied_loads", "actuators"),
     ("mechanism",),
     ("files",),
     ("topology",),

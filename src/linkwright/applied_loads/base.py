@@ -43,7 +43,7 @@ from linkwright.fields.references import (
 )
 from linkwright.joints.base import JointName
 from linkwright.registry import Registry
-from linkwright.words import _
+from linkwright.words import Message, _
 from linkwright.words.message import together
 from linkwright.words.synonyms import meaning
 
@@ -75,10 +75,11 @@ __all__ = [
 class Load:
     """A load on the mechanism; ``name`` is its name in the model.
 
-    ``exactly_one`` lists groups of keys of which exactly one must be set.
+    ``section``: of the model file; ``exactly_one`` lists groups of keys of which exactly one must be set.
     """
 
     kind: ClassVar[str]
+    section: ClassVar[str] = "loads"
     exactly_one: ClassVar[tuple[tuple[str, ...], ...]] = ()
     name: str
 
@@ -172,9 +173,9 @@ class Load:
         return tuple(found)
 
     def dimensions(self) -> dict[str, float]:
-        """Addresses ``loads.NAME.FIELD`` of the load's dimensions with their SI values."""
+        """Addresses ``SECTION.NAME.FIELD`` of the load's dimensions with their SI values."""
         return {
-            f"loads.{self.name}.{each.key or name}{suffix}": number
+            f"{self.section}.{self.name}.{each.key or name}{suffix}": number
             for name, each, value in self.fields_with_values()
             for suffix, number in each.flatten(value).items()
         }
@@ -183,7 +184,7 @@ class Load:
         """The same load with the values that ``value`` gives for the addresses of ``dimensions``."""
 
         def rebuilt(name: str, each: Field, part: Any) -> Any:
-            address = f"loads.{self.name}.{each.key or name}"
+            address = f"{self.section}.{self.name}.{each.key or name}"
             return each.rebuild(part, lambda suffix: value(address + suffix))
 
         return dataclasses.replace(
@@ -205,24 +206,42 @@ LOADS: Registry[type[Load]] = Registry(
 )
 
 
+_ACTUATOR = _("motors, brakes and flywheels act in motion under forces: write them under actuators")
 #: What some take for a kind of load, by its meaning, and the message that says where it belongs.
 ELSEWHERE = {
     "gravity": _("gravity is a key of the model, not a load: gravity: [0, -9.81 m/s²]"),
     "mass": _("gravity is a key of the model, not a load: gravity: [0, -9.81 m/s²]"),
+    "input": _ACTUATOR,
+    "brake": _ACTUATOR,
+    "flywheel": _ACTUATOR,
     "friction": _("friction is a key of pins and guides under joints: friction: 0.1, of a pin with pin_radius: 5 mm"),
 }
 
 
 def read_load(reader: Reader, node: Node, place: Place, name: str) -> Load | None:
     """The load at a node of a file, or None after findings."""
+    return read_kind(reader, node, place, name, LOADS, ELSEWHERE, _("the load has no kind"))
+
+
+def read_kind(
+    reader: Reader,
+    node: Node,
+    place: Place,
+    name: str,
+    kinds: Mapping[str, type[Load]],
+    elsewhere: Mapping[str, Message],
+    missing: Message,
+) -> Load | None:
+    """A load of one of the ``kinds`` at a node of a file, or None after findings; ``elsewhere``: what is none of
+    them, by its meaning; ``missing``: the finding where there is no kind."""
     before = reader.error_count
     kind_node = node.get("kind") if isinstance(node, MappingNode) else None
-    text = kind_node.text if isinstance(kind_node, ScalarNode) and kind_node.text not in LOADS else ""
-    for concept in meaning(text) & ELSEWHERE.keys() if text else ():
+    text = kind_node.text if isinstance(kind_node, ScalarNode) and kind_node.text not in kinds else ""
+    for concept in meaning(text) & elsewhere.keys() if text else ():
         problem = _('"{text}" is not known here', code="model.unknown_word", text=text)
-        reader.error(kind_node, place.child("kind"), problem, ELSEWHERE[concept], "unknown-word")
+        reader.error(kind_node, place.child("kind"), problem, elsewhere[concept], "unknown-word")
         return None
-    read = reader.of_kind(node, place, LOADS, _("the load has no kind"), _("write kind: one of {kinds}"))
+    read = reader.of_kind(node, place, kinds, missing, _("write kind: one of {kinds}"))
     if read is None:
         return None
     mapping, cls, found = read

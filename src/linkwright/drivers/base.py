@@ -20,6 +20,13 @@ if TYPE_CHECKING:
     Array = Floats
 
 
+#: Of a driver without a law where a motion is prescribed.
+NO_LAW = _(
+    "driver {name!r} is free, so no law says its motion; find the motion under forces (linkwright run, lw.run), the "
+    "accelerations at one position (linkwright solve --free, lw.release), or give the driver a law such as speed: "
+    "{speed}",
+    code="dynamics.free_driver",
+)
 BEYOND_LAW = _(
     "the driver's table covers {first:g} s to {last:g} s, but the motion asks for "
     "{begin:g} s to {end:g} s; shorten the cycle or extend the table",
@@ -152,4 +159,5 @@ LABELS: Mapping[str, Message] = {
     "table": _("table"),
     "program": _("motion program"),
     "position": _("expression of the time"),
+    "free": _("free, moved by forces"),
 }

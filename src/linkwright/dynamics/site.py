@@ -59,8 +59,8 @@ def freed(mechanism: Mechanism) -> Mechanism:
     A constant speed would be folded into the programs, so that the coordinate's second derivative were known.
     """
     drivers = {name: _free(each) for name, each in mechanism.drivers.items()}
-    loads: Mapping[str, Load] = {**mechanism.loads, **getattr(mechanism, "actuators", {})}
-    return replace(mechanism, drivers=drivers, loads=loads, cycle=None)
+    loads: Mapping[str, Load] = {**mechanism.loads, **mechanism.actuators}
+    return replace(mechanism, drivers=drivers, loads=loads, actuators={}, cycle=None)
 
 
 def _free(driver: Driver) -> Driver:

@@ -8,6 +8,7 @@ from functools import partial
 from itertools import groupby
 from typing import Any
 
+from linkwright.actuators.base import ACTUATORS
 from linkwright.applied_loads.base import LOADS
 from linkwright.fields.nodes import Entry, Node, Scalar, Sequence
 from linkwright.fields.nodes import Mapping as MappingNode
@@ -16,6 +17,7 @@ from linkwright.joints.base import JOINTS
 from linkwright.mechanism.link import LINK_FIELDS
 from linkwright.registry import PROBABLE, nearest
 from linkwright.words import _
+from linkwright.words.synonyms import meaning
 
 #: Keys under which a list of elements gives their names.
 NAMED = ("name", "id")
@@ -50,22 +52,49 @@ SECTIONS: Mapping[str, Callable[[Node], bool]] = {
     "links": _elements,
     "joints": _elements,
     "loads": _elements,
+    "actuators": _elements,
+    "stops": _elements,
     "drivers": _elements,
     "assembly": _modes,
     "drawing": _places,
     "driver": _driver,
     "gravity": lambda node: isinstance(node, Sequence),
 }
-OUTER = ("frame", "links", "joints", "loads", "assembly", "drawing")
-ELEMENTS = ("links", "joints", "loads", "drivers")
+#: Meanings of names that some give the section of actuators.
+DRIVES = frozenset(("input", "brake", "cylinder", "flywheel"))
+OUTER = ("frame", "links", "joints", "loads", "actuators", "stops", "assembly", "drawing")
+ELEMENTS = ("links", "joints", "loads", "actuators", "stops", "drivers")
 #: Sections whose elements have kinds.
-KINDS: Mapping[str, Mapping[str, Any]] = {"joints": JOINTS, "loads": LOADS}
+KINDS: Mapping[str, Mapping[str, Any]] = {"joints": JOINTS, "loads": LOADS, "actuators": ACTUATORS}
 
 
 def in_place(reader: PlainReader, root: MappingNode, known: tuple[str, ...]) -> MappingNode:
     """The root of a model with sections and elements where they belong; ``known`` are the sections."""
-    root = _sorted(reader, _named(reader, _raised(reader, root)))
+    root = _sorted(reader, _named(reader, _raised(reader, _of_actuators(reader, root, known))))
     return _lowered(reader, _indented(reader, root), known)
+
+
+def _of_actuators(reader: PlainReader, root: MappingNode, known: tuple[str, ...]) -> MappingNode:
+    """With the section of actuators under its own name where it has that of a kind: ``motors``, ``brakes``."""
+    entries = list[Entry]()
+    for entry in root.entries:
+        name, value = entry.key.text, entry.value
+        if name not in known and meaning(name) & DRIVES and _elements(value) and not _drivers(value):
+            reader.finding(
+                entry.key,
+                name,
+                _('unknown key "{key_}"'),
+                "unknown-key",
+                _('motors, brakes, cylinders and flywheels are in one section: write "actuators:"'),
+                key_=name[:100],
+            )
+            entry = Entry(replace(entry.key, text="actuators"), value)
+        entries.append(entry)
+    return replace(root, entries=entries)
+
+
+def _drivers(node: Node) -> bool:
+    return isinstance(node, MappingNode) and any(_driver(value) for _unused, value in node)
 
 
 def _raised(reader: PlainReader, root: MappingNode) -> MappingNode:

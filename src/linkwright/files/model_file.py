@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from linkwright.actuators.base import ACTUATORS
 from linkwright.applied_loads.base import LOADS
 from linkwright.core.arguments import describe
 from linkwright.drivers.base import LAWS
@@ -22,6 +23,8 @@ from linkwright.joints.base import JOINTS
 from linkwright.mechanism.cycle import ROCK, Cycle
 from linkwright.mechanism.link import FRAME_FIELDS, LINK_FIELDS
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.mechanism.run_conditions import RunConditions
+from linkwright.mechanism.stops import STOP_FIELDS
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -140,6 +143,12 @@ def json_schema() -> Schema:
             _("what one cycle is (default: one turn of the driver); rock: to and fro between the driver's limits"),
         ),
         "loads": (_named({"oneOf": [load.schema() for load in LOADS.values()]}), _("loads by name")),
+        "actuators": (
+            _named({"oneOf": [each.schema() for each in ACTUATORS.values()]}),
+            _("motors, cylinders, brakes and flywheels by name, for motion under forces"),
+        ),
+        "stops": (_named(table_schema(STOP_FIELDS)), _("end stops by name, for motion under forces")),
+        "run": (table_schema(RunConditions.fields({})), _("how a run under forces begins and ends")),
         "outputs": (_named({"type": "string"}), _("formulas of places and rates with names of their own")),
     }
     properties = {name: each.schema() for name, each in HEADER.items()}

@@ -25,6 +25,7 @@ from linkwright.files.check_mechanism import check_mechanism
 from linkwright.files.misplaced import in_place
 from linkwright.files.node_reader import MODES
 from linkwright.files.read_drivers import read_cycle, read_drivers, scan_input
+from linkwright.files.read_dynamics import read_actuators, read_run, read_stops
 from linkwright.files.read_structure import (
     legible,
     read_drawing,
@@ -69,6 +70,9 @@ SECTIONS = (
     "drivers",
     "cycle",
     "loads",
+    "actuators",
+    "stops",
+    "run",
     "outputs",
 )
 _NO_PARAMETER = _('"{name}" cannot name a parameter: it is {what}')
@@ -109,6 +113,7 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
     links = read_links(reader, root.get("links"), frame, drawn)
     joints = read_joints(reader, root.get("joints"), {"frame": frame, **links})
     drivers = read_drivers(reader, root, joints)
+    loads = _loads(reader, root.get("loads"))
     mechanism = Mechanism(
         name=header.get("name") or os.path.splitext(os.path.basename(source))[0],
         frame=frame,
@@ -120,11 +125,14 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
         assembly=_assembly(reader, root.get("assembly")),
         drawing=drawn,
         gravity=header.get("gravity") or (0.0, 0.0),
-        loads=_loads(reader, root.get("loads")),
+        loads=loads,
         outputs=read_outputs(
             reader, root.get("outputs"), driven=any(root.get(each) for each in ("driver", "drivers"))
         ),
         cycle=read_cycle(reader, root.get("cycle"), drivers),
+        actuators=read_actuators(reader, root.get("actuators"), loads),
+        stops=read_stops(reader, root.get("stops")),
+        run=read_run(reader, root, drivers),
         parameters=parameters,
         kinds={name: reader.kinds[name] for name in parameters},
         expressions=reader.expressions,

@@ -55,6 +55,13 @@ def to_data(mechanism: Mechanism) -> Plain:
     data["loads"] = {
         name: _substituted(load.written(), f"loads.{name}", texts) for name, load in mechanism.loads.items()
     }
+    data["actuators"] = {
+        name: _substituted(each.written(), f"actuators.{name}", texts) for name, each in mechanism.actuators.items()
+    }
+    data["stops"] = {
+        name: _substituted(stop.written(), f"stops.{name}", texts) for name, stop in mechanism.stops.items()
+    }
+    data["run"] = _substituted(mechanism.run.written(mechanism.drivers), "run", texts) if mechanism.run else {}
     data["outputs"] = {name: each.expression.text for name, each in mechanism.outputs.items()}
     data |= {name: dict(getattr(mechanism, name)) for name in FREE_SECTIONS}
     return {key: value for key, value in data.items() if value not in ({}, [])}
@@ -139,7 +146,7 @@ def to_yaml(data: Plain) -> str:
     """Plain data as YAML: one line for each entry of a section."""
     lines: list[str] = []
     for key, value in data.items():
-        if isinstance(value, dict) and key not in ("driver", "cycle"):
+        if isinstance(value, dict) and key not in ("driver", "cycle", "run"):
             lines.append(f"{key}:")
             lines += [f"  {scalar(name)}: {flow(each)}" for name, each in value.items()]
         else:

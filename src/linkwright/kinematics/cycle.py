@@ -15,7 +15,7 @@ from linkwright.core.arrays import Floats, Indices
 from linkwright.core.outputs import row_name
 from linkwright.drivers.base import Driver, Law
 from linkwright.formula.recently_made import Recent
-from linkwright.kinematics.positions import CycleError, Positions, at_times, rotary
+from linkwright.kinematics.positions import CycleError, Positions, at_times, refuse_free, rotary
 from linkwright.kinematics.rotations import Key, RotationSums, Terms
 from linkwright.kinematics.solver import MotionSolver
 from linkwright.kinematics.structure_with_rank import analysed
@@ -63,6 +63,7 @@ def time_span(mechanism: Mechanism) -> tuple[float, float, bool]:
     """Start and duration (s) of the cycle, and whether it closes."""
     cycle = mechanism.cycle
     first = next(iter(mechanism.drivers.values()))
+    refuse_free(mechanism)
     known = _naturals(mechanism)
     if (cycle is None or cycle.natural) and not known:
         problem = (

@@ -16,7 +16,7 @@ from linkwright.core.arrays import Floats, Indices
 from linkwright.core.expressions import amount
 from linkwright.core.inputs import driven
 from linkwright.core.quantity import shown
-from linkwright.drivers.base import Driver
+from linkwright.drivers.base import NO_LAW, Driver
 from linkwright.drivers.rocking import Rocking
 from linkwright.errors import LinkwrightError, QuantityError
 from linkwright.mechanism.mechanism import Mechanism
@@ -233,6 +233,7 @@ def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> 
                 driver=next(iter(mechanism.drivers)),
             )
         )
+    refuse_free(mechanism)
     rows = {}
     for name, values in requested.items():
         driver = _driver(mechanism, name)
@@ -258,6 +259,14 @@ def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> 
     for name, q in rows.items():
         coordinates[name] = (np.broadcast_to(q, (count,)).copy(), *coordinates[name][1:])
     return Positions(np.array(time), coordinates, rotary(mechanism))
+
+
+def refuse_free(mechanism: Mechanism) -> None:
+    """Raises CycleError for a driver without a law, of which no motion is prescribed."""
+    for driver in mechanism.drivers.values():
+        if not driver.law.prescribed:
+            speed = "10 rad/s" if driver.law.rotary else "0.1 m/s"
+            raise CycleError(NO_LAW.format(name=driver.name, speed=speed))
 
 
 def _refuse_beyond(driver: Driver, q: Floats) -> None:

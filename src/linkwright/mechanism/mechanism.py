@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import Any
 
+from linkwright.actuators.base import Actuator
 from linkwright.applied_loads.base import Load
 from linkwright.core.arguments import require
 from linkwright.core.attached import attached
@@ -23,6 +24,8 @@ from linkwright.joints.base import Joint
 from linkwright.joints.lower_pair import RigidJoint, SlidingJoint, TurningJoint
 from linkwright.mechanism.cycle import Cycle
 from linkwright.mechanism.link import Link, Vec
+from linkwright.mechanism.run_conditions import RunConditions
+from linkwright.mechanism.stops import Stop
 from linkwright.registry import nearest, no_such
 from linkwright.units import LARGEST_OF_ALL, SI_UNITS, Dimension
 from linkwright.words import _
@@ -57,7 +60,7 @@ def named_outputs(outputs: Mapping[str, NamedOutput]) -> dict[str, Output]:
 
 
 #: What has dimensions of its own.
-_SORTS = ("link", "joint", "driver", "load")
+_SORTS = ("link", "joint", "driver", "load", "actuator", "stop")
 
 GRAVITY = Quantities("acceleration", ("x", "y"), doc=_("gravity in frame axes"), form="[0, -9.81 m/s²]")
 
@@ -69,7 +72,8 @@ class Mechanism(Frozen):
     ``frame`` is the fixed link; ``links`` are the moving ones in the file's order. ``joints`` lists the
     implied
     pins in order of first appearance, then the explicit joints. ``kinds`` are the dimensions of the
-    ``parameters``; ``outputs`` are formulas of places that have a name. ``expressions`` maps the address of every
+    ``parameters``; ``outputs`` are formulas of places that have a name. ``actuators``, ``stops`` and ``run`` are for
+    motion under forces; what prescribes a motion leaves them out. ``expressions`` maps the address of every
     dimension that was given by an expression of ``parameters`` to that expression.
     """
 
@@ -86,6 +90,9 @@ class Mechanism(Frozen):
     loads: Mapping[str, Load] = field(default_factory=dict)
     outputs: Mapping[str, NamedOutput] = field(default_factory=dict)
     cycle: Cycle | None = None
+    actuators: Mapping[str, Actuator] = field(default_factory=dict)
+    stops: Mapping[str, Stop] = field(default_factory=dict)
+    run: RunConditions | None = None
     parameters: Mapping[str, float] = field(default_factory=dict)
     kinds: Mapping[str, Dimension] = field(default_factory=dict)
     expressions: Mapping[str, Expression] = field(default_factory=dict)
@@ -128,9 +135,11 @@ class Mechanism(Frozen):
         """What a file may hold at the address of a dimension; None of a parameter, and where there is none."""
         if address in ("gravity.x", "gravity.y"):
             return GRAVITY
-        sort, name = self._owners.get(address, ("", "cycle"))
-        fields = self._elements[sort][name].fields() if sort else Cycle.fields(self.across)
-        key = address.removeprefix("loads.").removeprefix(f"{name}.").partition(".")[0]
+        sort, name = self._owners.get(address, ("", address.partition(".")[0]))
+        by_section = {"cycle": Cycle.fields(self.across), "run": RunConditions.fields(self.drivers)}
+        element = self._elements[sort][name] if sort else None
+        fields = by_section.get(name, {}) if element is None else element.fields()
+        key = address.removeprefix(f"{getattr(element, 'section', '')}.").removeprefix(f"{name}.").partition(".")[0]
         found = (each for own, each in fields.items() if (each.key or own) == key)
         return next(found, PLACE if sort == "link" else None)
 
@@ -176,8 +185,13 @@ class Mechanism(Frozen):
                 self.drivers, {name: self.drivers[name].with_dimensions(value, parameters) for name in drivers}
             ),
             loads=_with(self.loads, {name: self.loads[name].with_dimensions(value) for name in renewed["load"]}),
+            actuators=_with(
+                self.actuators, {name: self.actuators[name].with_dimensions(value) for name in renewed["actuator"]}
+            ),
+            stops=_with(self.stops, {name: self.stops[name].with_dimensions(value) for name in renewed["stop"]}),
             gravity=(value("gravity.x"), value("gravity.y")),
             cycle=None if self.cycle is None else self.cycle.with_dimensions(value),
+            run=None if self.run is None else self.run.with_dimensions(value),
             parameters=_with(self.parameters, parameters),
             expressions=self.expressions if same else unchanged,
         )
@@ -197,7 +211,8 @@ class Mechanism(Frozen):
     def _elements(self) -> dict[str, Mapping[str, Any]]:
         """All that has dimensions of its own, by sort and name."""
         links = {"frame": self.frame, **self.links}
-        return dict(zip(_SORTS, (links, self.joints, self.drivers, self.loads), strict=True))
+        own = (links, self.joints, self.drivers, self.loads, self.actuators, self.stops)
+        return dict(zip(_SORTS, own, strict=True))
 
     @cached_property
     def _owners(self) -> dict[str, tuple[str, str]]:
@@ -306,6 +321,8 @@ class Mechanism(Frozen):
         found["gravity.x"], found["gravity.y"] = self.gravity
         if self.cycle is not None:
             found.update(self.cycle.dimensions())
+        if self.run is not None:
+            found.update(self.run.dimensions())
         return found
 
     def _unknown(self, address: str) -> LinkwrightError:

@@ -17,7 +17,10 @@ guide guideway slideway rail slot track prismatic sliding slide 导路 导轨 �
 cylinder hydraulic_cylinder jack 液压缸 气缸
 pin hinge pivot revolute bearing turning 转动副 回转副 铰链 铰接 铰 销 销轴
 output driven follower 输出 从动件
-input driver driving drive motor actuator 输入 驱动 原动件
+input driver driving drive motor actuator 输入 驱动 原动件 电机 电动机 马达
+brake clutch 制动器 制动 刹车
+stop endstop buffer bumper end_stop 挡块 限位 限位块 止挡
+run simulation simulate dynamics 仿真 运行 动力学
 link member bar body element 构件 杆件
 joint pair 运动副
 length size span long l 长度 杆长

@@ -7,6 +7,7 @@ from linkwright.core.expressions import parse
 from linkwright.drivers.base import LAWS, Law
 from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.drivers.expression import ExpressionLaw
+from linkwright.drivers.free import Free
 from linkwright.drivers.program import ProgramLaw
 from linkwright.drivers.table import TableLaw
 from linkwright.formula.numpy_backend import numpy_program
@@ -28,6 +29,7 @@ CASES: dict[str, Law] = {
     "table": TableLaw(TIMES, PLACES),
     "table linear": TableLaw(TIMES, PLACES, "linear"),
     "table periodic": TableLaw(TIMES, PLACES, "periodic"),
+    "free": Free(0.4),
     "program": program("polynomial_345"),
     "program cycloidal": program("cycloidal"),
     "program modified_sine": program("modified_sine"),
