@@ -161,8 +161,10 @@ def _output_guides(mechanism: Mechanism) -> list[str]:
 
 
 def _ranked_links(mechanism: Mechanism, structure: Structure) -> list[str]:
-    """Links that turn: those joined to the frame, the last solved first; then the others; driven ones last."""
-    order = [link for group in reversed(structure.groups) for link in reversed(group.links)]
+    """Links that turn: those joined to the frame, the last solved first; then the others; driven ones last. Parts of
+    cylinders, which two points stand for, are none of them."""
+    every = [link for group in reversed(structure.groups) for link in reversed(group.links)]
+    order = [link for link in every if link not in mechanism.cylinder_parts]
     driven = {link for driver in mechanism.drivers.values() for link in (driver.link, driver.relative_to)}
     at_frame = [joint for joint in mechanism.joints.values() if mechanism.grounded & set(joint.joined)]
     sliding = {link for joint in at_frame if joint.coordinate == "slide" for link in joint.joined}

@@ -14,6 +14,7 @@ from linkwright.words import Message, _
 
 if TYPE_CHECKING:
     from linkwright.core.arrays import Floats
+    from linkwright.drivers.cylinder import Cylinder
     from linkwright.fields.base import Field
     from linkwright.formula.trace import Scalar
 
@@ -126,7 +127,8 @@ class Driver:
     """Prescribes the coordinate of a joint.
 
     Revolute: the angle of ``link`` against ``relative_to`` (x axis to x axis, counter-clockwise positive).
-    Prismatic: the joint's displacement; ``link`` is the block, ``relative_to`` the guide link.
+    Prismatic: the joint's displacement; ``link`` is the block, ``relative_to`` the guide link. A ``cylinder``
+    drives the distance of two points; the joint is then its own.
     """
 
     name: str
@@ -134,19 +136,30 @@ class Driver:
     link: str
     relative_to: str
     law: Law
+    cylinder: Cylinder | None = None
 
     def fields(self) -> Mapping[str, Field]:
-        """What a file may say about the driver's law."""
-        return self.law.fields(self.law.rotary)
+        """What a file may say about the driver's law, and about its cylinder."""
+        fields = self.law.fields(self.law.rotary)
+        if self.cylinder is None:
+            return fields
+        from linkwright.drivers.cylinder import CYLINDER_FIELDS
+
+        return {**CYLINDER_FIELDS, **fields}
 
     def dimensions(self) -> Mapping[str, float]:
         """Addresses of the driver's dimensions (``driver.speed``) with their SI values."""
-        return {f"{self.name}.{name}": value for name, value in self.law.dimensions().items()}
+        own = {} if self.cylinder is None else self.cylinder.dimensions()
+        return {f"{self.name}.{name}": value for name, value in {**self.law.dimensions(), **own}.items()}
 
     def with_dimensions(self, value: Callable[[str], float], parameters: Mapping[str, float]) -> Driver:
         """The same driver with the values that ``value`` gives for the addresses of ``dimensions``."""
-        law = self.law.with_dimensions(lambda name: value(f"{self.name}.{name}"), parameters)
-        return replace(self, law=law)
+
+        def own(name: str) -> float:
+            return value(f"{self.name}.{name}")
+
+        cylinder = None if self.cylinder is None else self.cylinder.with_dimensions(own)
+        return replace(self, law=self.law.with_dimensions(own, parameters), cylinder=cylinder)
 
 
 LAWS: Registry[type[Law]] = Registry(

@@ -95,6 +95,21 @@ class Model:
         an expression ``position``, a ``table``."""
         self._section("drivers", name, {"slide": joint, **_present(**law)})
 
+    def stretch(
+        self,
+        *between: str,
+        stroke: Pair | None = None,
+        barrel: Mapping[str, Any] | None = None,
+        rod: Mapping[str, Any] | None = None,
+        name: str = "driver",
+        **law: Any,
+    ) -> None:
+        """Drive the distance of two points by a law, as a cylinder does: ``("frame.U", "boom.K", speed=0.02,
+        start=0.6)``; ``stroke``: shortest and longest (m); ``barrel``, ``rod``: ``mass``, ``inertia``,
+        ``mass_centre`` of its parts."""
+        keys = _present(stroke=stroke, barrel=barrel, rod=rod, **law)
+        self._section("drivers", name, {"between": list(between), **keys})
+
     def assemble(self, **modes: str) -> None:
         """Assembly modes: joint name = left, right, forward or backward."""
         for joint, mode in modes.items():

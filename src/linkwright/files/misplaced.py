@@ -38,7 +38,7 @@ def _modes(node: Node) -> bool:
 
 
 def _driver(node: Node) -> bool:
-    return isinstance(node, MappingNode) and bool({"turn", "slide"} & {key for key, _unused in node})
+    return isinstance(node, MappingNode) and bool({"turn", "slide", "between"} & {key for key, _unused in node})
 
 
 def _places(node: Node) -> bool:

@@ -16,7 +16,7 @@ from linkwright.fields.nodes import Node, Scalar, below
 from linkwright.fields.references import Coordinates
 from linkwright.files.compose import compose
 from linkwright.files.node_reader import MODES
-from linkwright.files.read_drivers import CYCLE_FORMS, SLIDE_FIELDS, TURN_FIELDS
+from linkwright.files.read_drivers import CYCLE_FORMS, WAYS
 from linkwright.files.read_model import FORMAT, HEADER, read_model
 from linkwright.files.source import ENDINGS, GALLERY, gallery_names, read_source
 from linkwright.joints.base import JOINTS
@@ -177,12 +177,12 @@ def _joints() -> list[Schema]:
 
 def _drivers() -> list[Schema]:
     found = []
-    for rotary, way in ((True, TURN_FIELDS), (False, SLIDE_FIELDS)):
+    for name, (way, rotary) in WAYS.items():
         for key, law in LAWS.items():
             fields: Mapping[str, Field] = {**way, **law.fields(rotary)}
             shape = table_schema(fields)
             shape["required"] = [*shape["required"], key]
-            found.append({"title": f"{next(iter(way))}, {key}", **shape})
+            found.append({"title": f"{name}, {key}", **shape})
     return found
 
 

@@ -8,13 +8,15 @@ from functools import lru_cache
 from typing import Any
 
 from linkwright.drivers.base import LAWS, Driver, Law
+from linkwright.drivers.cylinder import CYLINDER_FIELDS, barrel_name, rod_name
 from linkwright.errors import Severity
 from linkwright.fields.base import Field
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Node, Scalar
+from linkwright.fields.nodes import Node, Scalar, Sequence
 from linkwright.fields.reading import Place
 from linkwright.fields.references import LinkName
 from linkwright.files.node_reader import NAME, as_meant
+from linkwright.files.read_cylinders import read_cylinder
 from linkwright.files.reader import Reader
 from linkwright.joints.base import Joint, JointName
 from linkwright.mechanism.cycle import LIMITS, ROCK, Cycle
@@ -30,6 +32,12 @@ TURN_FIELDS: Mapping[str, Field] = {
 SLIDE_FIELDS: Mapping[str, Field] = {
     "slide": JointName(("slide",), required=True, doc=_("the prismatic joint that is driven"))
 }
+#: What a driver drives, by the key that says so, and whether that turns.
+WAYS: Mapping[str, tuple[Mapping[str, Field], bool]] = {
+    "turn": (TURN_FIELDS, True),
+    "slide": (SLIDE_FIELDS, False),
+    "between": (CYLINDER_FIELDS, False),
+}
 
 
 def scan_input(reader: Reader, root: MappingNode) -> None:
@@ -38,7 +46,8 @@ def scan_input(reader: Reader, root: MappingNode) -> None:
     several = root.get("drivers")
     if node is None and isinstance(several, MappingNode) and several.entries:
         node = several.entries[0].value
-    reader.input_rotary = not isinstance(node, MappingNode) or as_meant(node, _every_key()).get("slide") is None
+    meant = as_meant(node, _every_key()) if isinstance(node, MappingNode) else None
+    reader.input_rotary = meant is None or all(meant.get(way) is None for way in ("slide", "between"))
 
 
 def read_drivers(reader: Reader, root: MappingNode, joints: Mapping[str, Joint]) -> dict[str, Driver]:
@@ -50,7 +59,7 @@ def read_drivers(reader: Reader, root: MappingNode, joints: Mapping[str, Joint])
     if one is not None:
         _add(reader, found, joints, one, "driver", Place("driver", "driver"))
     mapping = None if several is None else reader.mapping(several, "drivers")
-    if mapping and any(isinstance(mapping.get(key), Scalar) for key in ("turn", "slide")):
+    if mapping and any(isinstance(mapping.get(key), Scalar | Sequence) for key in WAYS):
         reader.finding(
             mapping,
             "drivers",
@@ -61,7 +70,7 @@ def read_drivers(reader: Reader, root: MappingNode, joints: Mapping[str, Joint])
         return found
     for entry in mapping.entries if mapping else []:
         name = reader.name(entry.key, f"drivers.{entry.key.text}", _("driver"))
-        if name in reader.names.links or name in reader.names.joints:
+        if (name in reader.names.links or name in reader.names.joints) and name not in reader.cylinders:
             remedy = _("rename the driver")
             reader.finding(
                 entry.key,
@@ -101,28 +110,44 @@ def _read_driver(reader: Reader, joints: Mapping[str, Joint], node: Node, name: 
         return None
     before = reader.error_count
     meant = as_meant(mapping, _every_key())
-    turns, slides = (meant.get(key) is not None for key in ("turn", "slide"))
-    if turns and slides:
-        reader.finding(node, place, _("turn and slide are both present"), "choice", _("keep one of them"))
+    ways = [key for key in WAYS if meant.get(key) is not None]
+    if len(ways) > 1:
+        problem = _("{ways} are both present", code="model.both_ways", ways=together(ways))
+        if ways == ["turn", "slide"]:
+            problem = _("turn and slide are both present")
+        reader.error(node, place, problem, _("keep one of them"), "choice")
         return None
-    rotary = not slides
-    way = TURN_FIELDS if rotary else SLIDE_FIELDS
+    way, rotary = WAYS[ways[0]] if ways else WAYS["turn"]
     laws = _law_fields(rotary, tuple(LAWS.items()))
     every = {**way, **{key: each for law in laws.values() for key, each in law.items()}}
-    if not turns and not slides:
+    if not ways:
         _refuse_nothing_driven(reader, mapping, place)
         return None
     values = reader.table(mapping, place, every) or {}
     law = _read_law(reader, mapping, place, values, laws, rotary)
-    joint: tuple[str, str, str] | None = None
-    if rotary:
+    driver: Driver | None = None
+    if ways == ["between"]:
+        driver = _between(reader, mapping, place, name, values, law)
+    elif law is not None and rotary:
         joint = _revolute(reader, mapping, place, values)
-    elif values.get("slide") in joints:
+        driver = None if joint is None else Driver(name, *joint, law)
+    elif law is not None and values.get("slide") in joints:
         guide, block = joints[values["slide"]].joined
-        joint = values["slide"], block, guide
-    if joint is None or law is None or reader.error_count > before:
+        driver = Driver(name, values["slide"], block, guide, law)
+    return None if reader.error_count > before else driver
+
+
+def _between(
+    reader: Reader, node: MappingNode, place: Place, name: str, values: Mapping[str, Any], law: Law | None
+) -> Driver | None:
+    """The driver of a cylinder."""
+    between = values.get("between")
+    if between is None:
         return None
-    return Driver(name, *joint, law)
+    cylinder = read_cylinder(reader, node, place, name, between, values.get("stroke"))
+    if cylinder is None or law is None:
+        return None
+    return Driver(name, name, rod_name(name), barrel_name(name), law, cylinder)
 
 
 def _refuse_nothing_driven(reader: Reader, mapping: MappingNode, place: Place) -> None:
@@ -139,7 +164,9 @@ def _refuse_nothing_driven(reader: Reader, mapping: MappingNode, place: Place) -
     others = [entry for entry in mapping.entries if entry not in driven]
     reader.unknown_keys(replace(mapping, entries=others), place, known)
     at = driven[0].key if driven else mapping
-    remedy = _meant(reader, mapping) or _("add turn: LINK and about: PIN, or slide: JOINT")
+    remedy = _meant(reader, mapping) or _(
+        "add turn: LINK and about: PIN, or slide: JOINT, or between: [POINT, POINT]"
+    )
     reader.finding(at, place, _("what the driver drives is missing"), "missing-key", remedy)
 
 
@@ -163,7 +190,8 @@ def _law_fields(rotary: bool, laws: tuple[tuple[str, type[Law]], ...]) -> Mappin
 def _every_key() -> list[str]:
     """What may stand in the table of a driver."""
     laws = _law_fields(True, tuple(LAWS.items()))
-    return list(dict.fromkeys((*TURN_FIELDS, *SLIDE_FIELDS, *(key for law in laws.values() for key in law))))
+    ways = [key for fields, _unused in WAYS.values() for key in fields]
+    return list(dict.fromkeys((*ways, *(key for law in laws.values() for key in law))))
 
 
 def _read_law(

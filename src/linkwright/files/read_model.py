@@ -24,6 +24,7 @@ from linkwright.fields.sheet import FIELD as SHEET_SECTION
 from linkwright.files.check_mechanism import check_mechanism
 from linkwright.files.misplaced import in_place
 from linkwright.files.node_reader import MODES
+from linkwright.files.read_cylinders import as_written, with_cylinders
 from linkwright.files.read_drivers import read_cycle, read_drivers, scan_input
 from linkwright.files.read_dynamics import read_actuators, read_run, read_stops
 from linkwright.files.read_structure import (
@@ -99,12 +100,14 @@ def read_model(root: Node, source: str, *, si: bool = False) -> tuple[Mechanism 
         refuse_task(reader, task)
         return None, reader.findings
     mechanism = _sections(reader, mapping, source)
-    return (None if reader.error_count else mechanism), reader.findings
+    findings = [as_written(each, reader.cylinders) for each in reader.findings]
+    return (None if reader.error_count else mechanism), findings
 
 
 def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
     top = Place("", "")
     root, _unused = reader.unknown_keys(in_place(reader, root, SECTIONS), top, list(SECTIONS))
+    root, reader.cylinders = with_cylinders(root)
     _scan(reader, root)
     parameters = read_parameters(reader, root.get("parameters"))
     header = reader.table(_only(root, HEADER), top, HEADER) or {}

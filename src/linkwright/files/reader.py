@@ -39,6 +39,7 @@ class Reader(PlainReader):
         self.used: set[str] = set()
         self.expressions: dict[str, Expression] = {}
         self.input_rotary = True
+        self.cylinders: tuple[str, ...] = ()
         self._plain: str = ""
         self._variables: dict[str, units.Dimension] = {}
 

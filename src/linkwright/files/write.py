@@ -11,7 +11,9 @@ from typing import Any, NamedTuple
 from linkwright.core.arguments import require
 from linkwright.core.data import Plain
 from linkwright.drivers.base import Driver
+from linkwright.drivers.cylinder import barrel_name, rod_name
 from linkwright.errors import Finding, LinkwrightError, ModelError, with_remedy
+from linkwright.fields.body import BODY_FIELDS
 from linkwright.fields.nodes import Entry, Node, Scalar, Sequence, located
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.references import PLACE
@@ -43,12 +45,15 @@ def to_data(mechanism: Mechanism) -> Plain:
     data["parameters"] = {name: texts.get(name) or _parameter(mechanism, name) for name in mechanism.parameters}
     data["frame"] = {"points": _substituted(_places(mechanism.frame.points), "frame", texts)}
     drawn = {**mechanism.frame.points, **mechanism.drawing}
-    data["links"] = {name: _link(link, texts, drawn) for name, link in mechanism.links.items()}
-    joints = {name: _joint(joint, texts) for name, joint in mechanism.joints.items()}
+    cylinders = {name: each for name, each in mechanism.drivers.items() if is_whole(mechanism, each)}
+    parts = {link for each in cylinders.values() for link in (each.link, each.relative_to)}
+    data["links"] = {name: _link(link, texts, drawn) for name, link in mechanism.links.items() if name not in parts}
+    own = {each.joint for each in cylinders.values()}
+    joints = {name: _joint(joint, texts) for name, joint in mechanism.joints.items() if name not in own}
     data["joints"] = {name: found for name, found in joints.items() if found}
     data["assembly"] = dict(mechanism.assembly)
     data["drawing"] = _places(mechanism.drawing)
-    data |= _drivers(mechanism.drivers, texts)
+    data |= _drivers(mechanism, cylinders, texts)
     data["cycle"] = _substituted(mechanism.cycle.written(mechanism.across), "cycle", texts) if mechanism.cycle else {}
     gravity = _substituted(GRAVITY.written(mechanism.gravity), "gravity", texts)
     data["gravity"] = [] if gravity == [0.0, 0.0] else gravity
@@ -113,21 +118,54 @@ def _joint(joint: Joint, texts: Mapping[str, str]) -> Plain | None:
     return {"kind": joint.kind, **_substituted(values, joint.name, texts)}
 
 
-def _drivers(drivers: Mapping[str, Driver], texts: Mapping[str, str]) -> Plain:
-    found = {name: _driver(driver, texts) for name, driver in drivers.items()}
+def is_whole(mechanism: Mechanism, driver: Driver) -> bool:
+    """Whether a driver is a cylinder whose links and joint are still those that two points make."""
+    if driver.cylinder is None:
+        return False
+    links = [mechanism.links.get(each) for each in (driver.relative_to, driver.link)]
+    joint = mechanism.joints.get(driver.joint)
+    plain = {"guide": driver.relative_to, "block": driver.link, "direction": 0.0}
+    ends = (each.point for each in driver.cylinder.between)
+    return (
+        joint is not None
+        and {key: getattr(joint, key, None) for key in plain} == plain
+        and not any(getattr(joint, key, 0.0) for key in ("offset", "block_angle", "friction"))
+        and all(link is not None and list(link.points) == [end] for link, end in zip(links, ends, strict=True))
+        and driver.joint == driver.name
+    )
+
+
+def _drivers(mechanism: Mechanism, cylinders: Collection[str], texts: Mapping[str, str]) -> Plain:
+    found = {
+        name: _cylinder(mechanism, driver, texts) if name in cylinders else _driver(driver, texts)
+        for name, driver in mechanism.drivers.items()
+    }
     if list(found) == ["driver"]:
         return {"driver": found["driver"]}
     return {"drivers": found} if found else {}
 
 
 def _driver(driver: Driver, texts: Mapping[str, str]) -> Plain:
-    law = driver.law
     way: Plain = {"slide": driver.joint}
-    if law.rotary:
+    if driver.law.rotary:
         way = {"turn": driver.link, "about": driver.joint, "relative_to": driver.relative_to}
-    fields, values = type(law).fields(law.rotary), law.text_values()
+    return {**way, **_law(driver, texts)}
+
+
+def _cylinder(mechanism: Mechanism, driver: Driver, texts: Mapping[str, str]) -> Plain:
+    assert driver.cylinder is not None
+    bodies = {}
+    for key, name in (("barrel", driver.relative_to), ("rod", driver.link)):
+        written = _link(mechanism.links[name], texts, {})
+        bodies[key] = {each: value for each, value in written.items() if each in BODY_FIELDS}
+    own = _substituted(driver.cylinder.written(), driver.name, texts)
+    return {**own, **{key: each for key, each in bodies.items() if each}, **_law(driver, texts)}
+
+
+def _law(driver: Driver, texts: Mapping[str, str]) -> Plain:
+    fields, values = driver.law.fields(driver.law.rotary), driver.law.text_values()
     written = {key: fields[key].written(value) for key, value in values.items()}
-    return {**way, **_substituted(written, driver.name, texts)}
+    return _substituted(written, driver.name, texts)  # type: ignore[no-any-return]
 
 
 def _substituted(value: Any, address: str, texts: Mapping[str, str]) -> Any:
@@ -372,9 +410,19 @@ def _paths(address: str, root: MappingNode) -> list[list[str]]:
             found.append([section, *parts])
             if section == "links" and len(rest) == 2:
                 found += [[section, head, holder, *rest] for holder in ("points", "also")]
+    found += [[*path, body, *rest] for path, body in _bodies(head, root)]
     if head == "frame" and len(rest) == 2:
         found.append(["frame", "points", *rest])
     return found
+
+
+def _bodies(link: str, root: MappingNode) -> list[tuple[list[str], str]]:
+    """The driver's path and the key under which a file has the barrel or the rod of that name."""
+    several = root.get("drivers")
+    named = [name for name, _unused in several] if isinstance(several, MappingNode) else []
+    paths = {"driver": ["driver"], **{name: ["drivers", name] for name in named}}
+    made = {"barrel": barrel_name, "rod": rod_name}
+    return [(path, body) for name, path in paths.items() for body, named_by in made.items() if link == named_by(name)]
 
 
 def _follow(root: MappingNode, path: list[str]) -> tuple[Node, list[str]]:

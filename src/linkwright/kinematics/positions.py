@@ -166,9 +166,10 @@ def _in_si(text: str) -> str:
 
 
 def _driven(driver: Driver, time: Floats) -> tuple[Floats, Floats, Floats]:
-    """Coordinate and rates of a driver; raises CycleError where a law has none, or none that a machine can have."""
+    """Coordinate and rates of a driver; raises CycleError where a law has none, or none that the driver can have."""
     with np.errstate(all="ignore"):
         rows = driver.law.coordinate(time)
+    _refuse_beyond_stroke(driver, rows[0], time)
     kinds = _RATES[driver.law.rotary]
     for row, kind in zip(rows, kinds, strict=True):
         bad = np.flatnonzero(~(np.abs(row) <= LARGEST[kind]))
@@ -187,6 +188,41 @@ def _driven(driver: Driver, time: Floats) -> tuple[Floats, Floats, Floats]:
                 )
             )
     return rows
+
+
+def _refuse_beyond_stroke(driver: Driver, q: Floats, time: Floats) -> None:
+    """Refuses lengths (m) that a cylinder does not have, at times (s)."""
+    if driver.cylinder is None:
+        return
+    low, high = driver.cylinder.stroke or (0.0, np.inf)
+    slack = 1e-9 * (low or 1.0)
+    bad = np.flatnonzero((q < low - slack) | (q > high + slack) | (q <= 0.0))
+    if not len(bad):
+        return
+    value, at = shown(float(q[bad[0]]), "length"), float(time[bad[0]])
+    if driver.cylinder.stroke is None:
+        raise CycleError(
+            _(
+                "driver {name!r} would be {value} long at {time:g} s, which no distance is; give the distance of "
+                "its two points at time 0, as in start: 600 mm, or change its law",
+                code="motion.no_distance",
+                name=driver.name,
+                value=value,
+                time=at,
+            )
+        )
+    raise CycleError(
+        _(
+            "driver {name!r} would be {value} long at {time:g} s, but its stroke reaches from {low} to {high}; "
+            "change its law, the cycle or the stroke",
+            code="motion.beyond_stroke",
+            name=driver.name,
+            value=value,
+            time=at,
+            low=shown(low, "length"),
+            high=shown(high, "length"),
+        )
+    )
 
 
 def off_law(mechanism: Mechanism, positions: Positions) -> str | None:
@@ -258,6 +294,7 @@ def at_inputs(mechanism: Mechanism, at: ArrayLike | Mapping[str, ArrayLike]) -> 
     coordinates = {name: _driven(driver, time) for name, driver in mechanism.drivers.items()}
     for name, q in rows.items():
         coordinates[name] = (np.broadcast_to(q, (count,)).copy(), *coordinates[name][1:])
+        _refuse_beyond_stroke(mechanism.drivers[name], coordinates[name][0], np.broadcast_to(time, (count,)))
     return Positions(np.array(time), coordinates, rotary(mechanism))
 
 

@@ -30,6 +30,9 @@ def limits(law: Rocking) -> tuple[float, float] | None:
         CycleError: the driver finds no limit in one direction.
         LinkwrightError: as :func:`input_range`.
     """
+    (driver,) = law.machine.drivers.values()
+    if driver.cylinder is not None and driver.cylinder.stroke is not None:
+        return _within_stroke(law, driver.cylinder.stroke)
     found = drawn_range(law.machine)
     if found.full and found.rotary:
         return None
@@ -47,3 +50,13 @@ def limits(law: Rocking) -> tuple[float, float] | None:
         )
     free = law.rock.share * (found.end - found.start)
     return found.start + free, found.end - free
+
+
+def _within_stroke(law: Rocking, stroke: tuple[float, float]) -> tuple[float, float]:
+    """The full stroke of a cylinder, as far as the machine lets it move, with a margin at limits of the machine."""
+    found = drawn_range(law.machine)
+    low, high = stroke
+    start = low if found.start is None else found.start
+    end = high if found.end is None else found.end
+    free = law.rock.share * (end - start)
+    return max(low, start + free), min(high, end - free)

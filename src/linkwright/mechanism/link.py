@@ -9,8 +9,8 @@ from functools import cached_property
 from typing import Any, Literal, TypeVar
 
 from linkwright.fields.base import Field, Quantities, Quantity
-from linkwright.fields.colour import Colour
-from linkwright.fields.references import Coordinates, LinkPoints, PlaceOrPoint
+from linkwright.fields.body import BODY_FIELDS
+from linkwright.fields.references import Coordinates, LinkPoints
 from linkwright.words import _
 
 T = TypeVar("T")
@@ -24,10 +24,7 @@ LINK_FIELDS: Mapping[str, Field] = {
     "lengths": Quantities("length", count=2, above=0, doc=_("bent link: first to second, first to third point")),
     "angle": Quantity("angle", doc=_("bent link: angle from the first length to the second")),
     "also": Coordinates(doc=_("further points, by coordinates in the link's axes")),
-    "mass": Quantity("mass", minimum=0, doc=_("mass (default 0)")),
-    "inertia": Quantity("inertia", minimum=0, doc=_("moment of inertia about the mass centre (default 0)")),
-    "mass_centre": PlaceOrPoint("length", ("x", "y"), doc=_("mass centre: [x, y] or a point (default: midway)")),
-    "colour": Colour(doc=_('colour of the link in drawings: a name, or "#rrggbb" (default: that of all lines)')),
+    **BODY_FIELDS,
 }
 FRAME_FIELDS: Mapping[str, Field] = {
     "points": Coordinates(required=True, doc=_("fixed points: {{O1: [0 m, 0 m], …}}"))

@@ -247,6 +247,12 @@ class Mechanism(Frozen):
             found = found.union(*touching)
         return frozenset(found)
 
+    @cached_property
+    def cylinder_parts(self) -> Mapping[str, str]:
+        """The links of which drivers between two points are made, with the names of these drivers."""
+        cylinders = [each for each in self.drivers.values() if each.cylinder is not None]
+        return FrozenDict({link: each.name for each in cylinders for link in (each.relative_to, each.link)})
+
     def pin_links(self, name: str) -> tuple[str, ...]:
         """The links on the pin of that name; none where there is no such pin."""
         joint = self.joints.get(name)

@@ -159,14 +159,19 @@ def point_labels(machine: DrawnMechanism, index: int, links: Iterable[str] | Non
 
 
 def link_labels(scene: Scene, index: int) -> Iterator[Label]:
-    """Names of all moving links, next to their bodies."""
+    """Names of all moving links, next to their bodies; of a cylinder the driver's, at its barrel."""
     machine = scene.machine
+    drivers = machine.motion.mechanism.drivers.values()
+    cylinders = {each.relative_to: each.name for each in drivers if each.cylinder is not None}
+    rods = {each.link for each in drivers if each.cylinder is not None}
     for name in machine.motion.mechanism.links:
+        if name in rods or cylinders.get(name) == "driver":
+            continue
         cloud = machine.cloud(name)
         if len(cloud) < 2:
             cloud = _middle_of_ink(scene, name, cloud)
         cloud = moved(cloud, machine.view.transform(machine.placed[name], index))
-        yield Label(name, _anchors(cloud), "lw-link", LINK_SIZE, clearance=5.0)
+        yield Label(cylinders.get(name, name), _anchors(cloud), "lw-link", LINK_SIZE, clearance=5.0)
 
 
 def _middle_of_ink(scene: Scene, link: str, cloud: Floats) -> Floats:

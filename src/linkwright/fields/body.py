@@ -1,0 +1,17 @@
+"""What a file may say about a rigid body, wherever its points are said."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from linkwright.fields.base import Field, Quantity
+from linkwright.fields.colour import Colour
+from linkwright.fields.references import PlaceOrPoint
+from linkwright.words import _
+
+BODY_FIELDS: Mapping[str, Field] = {
+    "mass": Quantity("mass", minimum=0, doc=_("mass (default 0)")),
+    "inertia": Quantity("inertia", minimum=0, doc=_("moment of inertia about the mass centre (default 0)")),
+    "mass_centre": PlaceOrPoint("length", ("x", "y"), doc=_("mass centre: [x, y] or a point (default: midway)")),
+    "colour": Colour(doc=_('colour of the link in drawings: a name, or "#rrggbb" (default: that of all lines)')),
+}
