@@ -26,7 +26,10 @@ def test_drawing_is_valid_and_shows_all_joints_and_names(name: str) -> None:
     assert styles.count("lw-support") == sum("frame" in joint.joined for joint in pins)
     assert styles.count("lw-block") >= sum(joint.kind == "prismatic" for joint in mechanism.joints.values())
     texts = {"".join(each.itertext()) for each in drawn.iter(f"{SVG}text")}
-    assert texts >= set(mechanism.links) | {p for link in mechanism.links.values() for p in link.points}
+    cylinders = [each for each in mechanism.drivers.values() if each.cylinder is not None]
+    bodies = set(mechanism.links) - {part for each in cylinders for part in (each.link, each.relative_to)}
+    points = {point for link in mechanism.links.values() for point in link.points}
+    assert texts >= bodies | {each.name for each in cylinders} | points
     assert all("nan" not in value for each in drawn.iter() for value in each.attrib.values())
     assert not any(key in REFERENCES for each in drawn.iter() for key in each.attrib)
     style = drawn.find(f"{SVG}style")

@@ -308,7 +308,7 @@ def test_a_pin_is_said_to_join_the_links_that_have_its_point(table: str, values:
         ("turn: crank, pivot: O, ", {"key_": "pivot", "offer": "about"}),
         ("turn: crank, at: O1, ", {"key_": "at", "offer": "about"}),
         ("joint: O1, ", {"remedy": "write turn: {link} and about: {pin}", "link": "crank", "pin": "O1"}),
-        ("joint: O, ", {"remedy": "add turn: LINK and about: PIN, or slide: JOINT"}),
+        ("joint: O, ", {"remedy": "add turn: LINK and about: PIN, or slide: JOINT, or between: [POINT, POINT]"}),
         ("link: crank, joint: O1, ", {"remedy": "write turn: {link} and about: {pin}", "link": "crank", "pin": "O1"}),
     ],
 )

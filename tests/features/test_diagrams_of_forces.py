@@ -79,12 +79,12 @@ def test_every_joint_is_drawn_once_and_pins_of_several_links_once_for_each(force
         "K4",
         "W",
         "L",
-        "J (bucket_rod)",
+        "J (bucket_curl_rod)",
         "J (rocker)",
         "J (tie)",
-        "boom_stroke",
-        "stick_stroke",
-        "bucket_stroke",
+        "boom_lift",
+        "stick_swing",
+        "bucket_curl",
     }
     assert curves["O"] == pytest.approx(AT_O, rel=1e-4)
     assert curves["S"] == pytest.approx(AT_S, rel=1e-4)

@@ -20,7 +20,7 @@ from linkwright.pictures.labels import Candidate, Label, Obstacles, place, text_
 from linkwright.pictures.picture import CAPITAL, Circle, Item, Line, Text, Vec, unbroken
 from linkwright.pictures.symbols.base import PIN, points
 from linkwright.plotting.drawing.dimensions import Dimensioned, dimension_lines
-from linkwright.plotting.drawing.scene import laid_out, link_labels, point_labels
+from linkwright.plotting.drawing.scene import body_labels, laid_out, point_labels
 from linkwright.words import _
 from linkwright.words.characters import one_line
 
@@ -163,7 +163,7 @@ class Sheet:
     def labels(self, *, names: bool) -> None:
         """Values of the dimensions and names of points and links, clear of lines; the name of the mechanism below."""
         values = [self._value(each) for each in self.measures]
-        wanted = [*point_labels(self.scene.machine, self.index), *link_labels(self.scene, self.index)]
+        wanted = [*point_labels(self.scene.machine, self.index), *body_labels(self.scene, self.index)]
         ink = [*self.scene.ink(self.index), *self.ink]
         places = place([*values, *(wanted if names else ())], Obstacles.of(ink))
         for measure, chosen in zip(self.measures, places, strict=False):

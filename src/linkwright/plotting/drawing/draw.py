@@ -28,8 +28,8 @@ from linkwright.plotting.drawing.scene import (
     Shown,
     at_input,
     at_time,
+    body_labels,
     laid_out,
-    link_labels,
     point_labels,
     with_limits,
 )
@@ -188,7 +188,7 @@ class MachineSketch(Sketch):
         if wanted:
             self.labels += point_labels(self.scene.machine, self.index)
         if wanted is True or wanted == "all":
-            self.labels += [*link_labels(self.scene, self.index), *self.load_labels]
+            self.labels += [*body_labels(self.scene, self.index), *self.load_labels]
         self.write_names()
 
     def legend(self, arrows: Sequence[Arrows], language: str) -> None:

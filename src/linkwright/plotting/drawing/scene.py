@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -159,19 +159,25 @@ def point_labels(machine: DrawnMechanism, index: int, links: Iterable[str] | Non
 
 
 def link_labels(scene: Scene, index: int) -> Iterator[Label]:
-    """Names of all moving links, next to their bodies; of a cylinder the driver's, at its barrel."""
+    """Names of all moving links, next to their bodies."""
     machine = scene.machine
-    drivers = machine.motion.mechanism.drivers.values()
-    cylinders = {each.relative_to: each.name for each in drivers if each.cylinder is not None}
-    rods = {each.link for each in drivers if each.cylinder is not None}
     for name in machine.motion.mechanism.links:
-        if name in rods or cylinders.get(name) == "driver":
-            continue
         cloud = machine.cloud(name)
         if len(cloud) < 2:
             cloud = _middle_of_ink(scene, name, cloud)
         cloud = moved(cloud, machine.view.transform(machine.placed[name], index))
-        yield Label(cylinders.get(name, name), _anchors(cloud), "lw-link", LINK_SIZE, clearance=5.0)
+        yield Label(name, _anchors(cloud), "lw-link", LINK_SIZE, clearance=5.0)
+
+
+def body_labels(scene: Scene, index: int) -> Iterator[Label]:
+    """The same, with one name for the two links of a cylinder: the driver's, which is none where it is alone."""
+    mechanism = scene.machine.motion.mechanism
+    parts = mechanism.cylinder_parts
+    for label in link_labels(scene, index):
+        if label.text not in parts:
+            yield label
+        elif (driver := mechanism.drivers[parts[label.text]]).relative_to == label.text and driver.name != "driver":
+            yield replace(label, text=driver.name)
 
 
 def _middle_of_ink(scene: Scene, link: str, cloud: Floats) -> Floats:
