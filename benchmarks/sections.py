@@ -35,9 +35,11 @@ class Size:
     accuracy_steps: int = 72
     starts: int = 11
     chains: tuple[int, ...] = (10, 50, 100, 200)
+    run_ups: int = 1000
+    windows: tuple[int, ...] = (2, 10, 40)
 
 
-QUICK = Size(36, 3, 0.002, 2000, 500, 64, 8, 8, 3, (2, 5, 10))
+QUICK = Size(36, 3, 0.002, 2000, 500, 64, 8, 8, 3, (2, 5, 10), 64, (2, 4))
 
 
 def _agreement(gaps: Mapping[str, float]) -> str:
@@ -274,6 +276,33 @@ def accuracy(size: Size) -> Section:
     return Section(title, header, rows, [goal])
 
 
+def dynamics(size: Size) -> Section:
+    """Right-hand sides, run-ups of many designs, chains."""
+    from benchmarks import dynamics as motion
+
+    work = motion.SixbarRuns(size.run_ups)
+    few = min(size.run_ups, 20)
+    rounds = in_turns(work.right_hand_sides(), size.rounds, size.slice_s, process_time)
+    header, rows = timings(rounds, motion.NUMPY_ROUTE if motion.IN_LOOP not in rounds else motion.IN_LOOP, "µs")
+    goals, notes = [], []
+    if motion.IN_LOOP in rounds:
+        pace = 1e-6 / rounds.timings[motion.IN_LOOP].median
+        goals.append(Goal("right-hand sides of the six-bar in the loop, million/s on one core", pace, 1.0, True))
+        runs = in_turns(work.run_ups(few), min(size.rounds, 5), size.slice_s, process_time)
+        rows += timings(runs, motion.TOGETHER, "µs")[1]
+        label = f"{size.run_ups} run-ups:"
+        ratio = runs.ratio(motion.SCIPY, motion.TOGETHER)
+        goals.append(Goal(f"{label} side by side ÷ SciPy one after the other, speed", ratio, 20.0, True))
+        gap = work.disagreement(few)
+        notes.append(f"largest relative difference of the ends from SciPy's at the same tolerance {gap:.1e}")
+    chains, power = motion.growth(size.windows, size.rounds, size.slice_s)
+    rows += timings(chains, next(iter(chains.timings)), "µs")[1]
+    few_windows, many = size.windows[-2:]
+    goals.append(Goal(f"windows, {few_windows} to {many}: power of n of a right-hand side", power, 1.3, False))
+    header[3] = "time ÷ first of its kind"
+    return Section("Motion under forces: Watt six-bar, chains of four-bars", header, rows, goals, notes)
+
+
 SECTIONS: Mapping[str, Callable[[Size], Section]] = {
     "w2": lambda size: kernels("fourbar", size),
     "w3": lambda size: kernels("sixbar", size),
@@ -285,6 +314,7 @@ SECTIONS: Mapping[str, Callable[[Size], Section]] = {
     "numbers": numbers,
     "cycles": cycles,
     "growth": growing,
+    "dynamics": dynamics,
     "cold": cold_start,
     "accuracy": accuracy,
 }

@@ -67,6 +67,16 @@ def test_objectives_agree_with_the_complex_step_and_with_sweeps() -> None:
     assert TorqueWork(8, 24).disagreement() < 1e-9
 
 
+def test_runs_of_designs_agree_with_scipy() -> None:
+    from benchmarks.dynamics import SixbarRuns, growth
+
+    work = SixbarRuns(12)
+    assert work.disagreement(4) < 1e-7
+    assert (work.together(work.designs) == work.alone(work.designs)).all()
+    assert [each.name for each in every(work.right_hand_sides(), least=1)]
+    assert growth((1, 2), 1, 1e-4)[1] < 3.0
+
+
 @pytest.mark.parametrize("name", ["fourbar", "sixbar"])
 def test_peers_agree_where_installed(name: str) -> None:
     from benchmarks import by_numpy, peers
