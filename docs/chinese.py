@@ -71,6 +71,8 @@ NAMES = {
     "Window": "运动须停留在其中的窗口",
     "MotionProgram": "由各段组成的运动循环",
     "Segment": "运动循环的一段",
+    "DriveMargin": "起动与运转：所需力矩与现有力矩及裕度",
+    "drive_margin": "机器能否起动：卡死、死点、自锁与堵转，附裕度",
     "SteadyRunning": "稳定运转的结果：飞轮、真实转速",
     "TorqueCurve": "没有机构的力矩曲线",
     "steady_running": "电动机、飞轮与真实转速",

@@ -125,6 +125,7 @@ MEANINGS: Mapping[str, tuple[str, str]] = {
 }
 #: What the areas of the codes of errors are about.
 AREAS: Mapping[str, tuple[str, str]] = {
+    "verdicts": ("whether a machine starts, its motor and brake", "机器能否起动，电动机与制动"),
     "balance": ("the command balance", "命令 balance"),
     "beam": ("beams", "梁"),
     "cam": ("the command cam", "命令 cam"),

@@ -230,9 +230,13 @@ class EquationOfMotion:
     def row_program(self, names: Iterable[str]) -> Program:
         """The program of rows of the motion and its forces (see ``core.outputs``) at given accelerations
         ``second:NAME`` of all inputs, switches held."""
+        return self.value_program({name: self.forces.programs.value(name) for name in names})
+
+    def value_program(self, values: Mapping[str, Scalar | bool]) -> Program:
+        """The same of any values of the trace of the motion, such as those of ``forces``, ``plain``, ``resting``."""
         t = Trace()
         seconds = {name: t.position(Input("second", name).name) for name in self.names}
-        source, held = self.switches.program({name: self.forces.programs.value(name) for name in names})
+        source, held = self.switches.program(values)
         return Program.of(t, Held(source, held, t, self._given(t, source, seconds)).outputs)
 
     def evaluate(self, names: Iterable[str], given: Mapping[str, Floats | float], count: int) -> Floats:

@@ -156,9 +156,11 @@ def can_be_traced(friction: FrictionTerms) -> bool:
 
 @dataclass(frozen=True)
 class SolvedFriction:
-    """Sizes of the friction by the names of its fields, and whether they are certain to be the only ones."""
+    """Sizes of the friction by the names of its fields, whether they agree with the reactions (``found``; else there
+    are none, and the mechanism jams), and whether they are certain to be the only ones."""
 
     sizes: Mapping[str, Scalar]
+    found: Mask
     certain: Mask
 
 
@@ -169,7 +171,7 @@ def solved_friction(friction: FrictionTerms, forces_of: ForcesOf) -> SolvedFrict
     for terms in friction.blocks:
         factors = [_factor(friction, term) for term in terms]
         block = _block(friction, terms, factors, held, forces_of)
-        sizes = [_length(each) for each in block.under([0.0] * len(terms))[0]]
+        sizes: list[Scalar] = [0.0] * len(terms)  # of several solutions the one that friction from nothing leads to
         for step in range(STEPS):
             sizes = _newton(block, [stop(size) for size in sizes] if step == STEPS - 1 else sizes)
         for size, force in zip(sizes, block.under(sizes)[0], strict=True):
@@ -177,8 +179,8 @@ def solved_friction(friction: FrictionTerms, forces_of: ForcesOf) -> SolvedFrict
             gap, largest = maximum(gap, absolute(again - size)), maximum(largest, again)
         bound = maximum(bound, _bound(block.most))
         held |= {term.field: size * c for term, size, c in zip(terms, sizes, factors, strict=True)}
-    certain = friction.motion.trace.logic("and", gap <= LEFT * largest, bound < 1.0)
-    return SolvedFriction(held, certain)
+    found = gap <= LEFT * largest
+    return SolvedFriction(held, found, friction.motion.trace.logic("and", found, bound < 1.0))
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,174 @@
+"""The torque that a machine needs and the one that its actuators have, at any positions of its cycle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from linkwright.core.arrays import Floats, largest
+from linkwright.drivers.constant_speed import ConstantSpeed
+from linkwright.dynamics.verdicts.quasi_static import Course, QuasiStatic
+from linkwright.errors import RequestError
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.solve import solve_motion
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.registry import offered
+from linkwright.words import _
+
+
+@dataclass(frozen=True)
+class Torques:
+    """Torques (forces of a driver that slides) at positions, in the sense in which the driver moves: (n,) each.
+
+    ``time`` s in the cycle, ``input`` the driver's coordinate, rad or m; ``needed`` to move on, NaN where no finite
+    effort does; ``available`` from the actuators; ``ideal``: needed without friction; ``returning``: what the driver
+    must hold back with so that the machine does not run backwards (not positive where it stands by itself).
+    """
+
+    time: Floats
+    input: Floats
+    needed: Floats
+    available: Floats
+    ideal: Floats
+    returning: Floats
+
+    @property
+    def excess(self) -> Floats:
+        """Available less needed; minus infinity where no effort moves the machine."""
+        return np.where(np.isnan(self.needed), -np.inf, self.available - self.needed)
+
+    @property
+    def ratio(self) -> Floats:
+        """Available over needed; infinite where the loads help, zero where no effort moves the machine."""
+        with np.errstate(all="ignore"):
+            found = np.where(self.needed > 0.0, self.available / self.needed, np.inf)
+        return np.where(np.isnan(self.needed), 0.0, found)
+
+
+class Drive:
+    """A driver of a mechanism, with what moves it and what resists."""
+
+    def __init__(self, mechanism: Mechanism, driver: str | None = None) -> None:
+        self.source = mechanism
+        self.name = _driver(mechanism, driver)
+        self.rotary = mechanism.drivers[self.name].law.rotary
+        self.dimension = "torque" if self.rotary else "force"
+        self.input_dimension = "angle" if self.rotary else "length"
+        self.prescribed = all(each.law.prescribed for each in mechanism.drivers.values())
+        self.mechanism = mechanism if self.prescribed else _at_constant_speed(mechanism)
+        self.driven = bool(getattr(mechanism, "actuators", {}))
+        self._load = QuasiStatic(_without_actuators(mechanism))
+
+    @cached_property
+    def _all(self) -> QuasiStatic:
+        return QuasiStatic(self.source) if self.driven else self._load
+
+    def cycle(self, steps: int) -> Floats:
+        """Times of the positions of the cycle that are reached, s."""
+        motion = solve_motion(self.mechanism, steps=steps, failures="mark")
+        return np.asarray(motion.time[motion.ok])
+
+    @property
+    def period(self) -> float | None:
+        """Time after which the cycle repeats, s; None of one that does not."""
+        return self._first.positions.period if self._first.positions.closed else None
+
+    @cached_property
+    def _first(self) -> Motion:
+        return solve_motion(self.mechanism, steps=2, failures="mark")
+
+    @property
+    def speed(self) -> float | None:
+        """The size of the driver's constant speed, rad/s or m/s; None where it has a law, or none."""
+        found = self.mechanism.drivers[self.name].law.constant_speed if self.prescribed else None
+        return None if found is None else abs(found)
+
+    def course(self, times: Floats) -> tuple[Course, Floats]:
+        """Course and times of those positions that are reached."""
+        motion = solve_motion(self.mechanism, times=times, failures="mark")
+        return Course.of(motion, motion.ok), motion.time[motion.ok]
+
+    def starting(self, times: Floats) -> Torques:
+        """At rest, at the verge of motion."""
+        course, reached = self.course(times)
+        senses = {name: _senses(rate) for name, rate in course.rates.items()}
+        sense = senses[self.name]
+        load = self._load.starting(course, senses)
+        net = self._all.starting(course, senses) if self.driven else load
+        back = self._load.starting(course, {**senses, self.name: -sense})
+        name = self.name
+        return Torques(
+            time=reached,
+            input=course.places[name],
+            needed=sense * load.effort[name],
+            available=sense * (load.effort[name] - net.effort[name]),
+            ideal=sense * load.ideal[name],
+            returning=sense * back.effort[name],
+        )
+
+    def running(self, times: Floats) -> Torques:
+        """At the speeds and accelerations of the cycle; inertia of actuators counts against what they supply."""
+        course, reached = self.course(times)
+        sense, name = _senses(course.rates[self.name]), self.name
+        load = self._load.running(course)
+        net = self._all.running(course) if self.driven else load
+        return Torques(
+            time=reached,
+            input=course.places[name],
+            needed=sense * load.effort[name],
+            available=sense * (load.effort[name] - net.effort[name]),
+            ideal=sense * load.ideal[name],
+            returning=np.full(course.count, np.nan),
+        )
+
+    def quality(self, times: Floats) -> Floats:
+        """Of the worst group of links, 0 at a dead point of the driver, 1 at best, (n,)."""
+        return self._load.quality(self.course(times)[0])
+
+
+def _driver(mechanism: Mechanism, driver: str | None) -> str:
+    if not mechanism.drivers:
+        raise RequestError(
+            _(
+                "{name!r} has no driver, so nothing says along which coordinate it is driven; add a driver",
+                code="verdicts.no_driver",
+                name=mechanism.name,
+            )
+        )
+    name = driver or next(iter(mechanism.drivers))
+    if name not in mechanism.drivers:
+        raise RequestError(
+            _(
+                'there is no driver "{driver}"; {hint}',
+                code="verdicts.unknown_driver",
+                driver=name,
+                hint=offered(name, mechanism.drivers),
+            )
+        )
+    return name
+
+
+def _at_constant_speed(mechanism: Mechanism) -> Mechanism:
+    """The mechanism with its free coordinates at a slow speed, which no number found at rest depends on."""
+    drivers = {}
+    for name, driver in mechanism.drivers.items():
+        law = driver.law
+        slow = ConstantSpeed(1.0 if law.rotary else 0.1 * mechanism.size, law.at(0.0), law.rotary)
+        drivers[name] = driver if law.prescribed else replace(driver, law=slow)
+    return replace(mechanism, drivers=drivers)
+
+
+def _senses(rates: Floats) -> Floats:
+    """The sense of motion at every position: 1 or -1, at rest the one of the position before."""
+    signs = np.where(np.abs(rates) > 1e-9 * largest(rates), np.sign(rates), 0.0)
+    moving = np.flatnonzero(signs)
+    if not moving.size:
+        return np.ones_like(rates)
+    before = moving[np.clip(np.searchsorted(moving, np.arange(len(signs)), "right") - 1, 0, None)]
+    return np.asarray(signs[before])
+
+
+def _without_actuators(mechanism: Mechanism) -> Mechanism:
+    return replace(mechanism)
