@@ -27,8 +27,9 @@ loads:
 """
 
 
-def pump(*, rod: float = 300.0, friction: float = 0.0) -> lw.Mechanism:
-    return lw.loads(CRANK.format(rod=rod, friction=friction))
+def pump(*, rod: float = 300.0, friction: float = 0.0, drive: str = "") -> lw.Mechanism:
+    actuators = f"actuators: {{drive: {{{drive}}}}}" if drive else ""
+    return lw.loads(CRANK.format(rod=rod, friction=friction) + actuators)
 
 
 def wedges(angle: float, friction: float) -> lw.Mechanism:
@@ -110,3 +111,53 @@ def test_what_is_refused() -> None:
         lw.drive_margin(pump(), driver="drver")
     with pytest.raises(lw.LinkwrightError, match="no driver"):
         lw.drive_margin(lw.load("gallery:truss"))
+
+
+def test_a_stall_says_where_and_how_much_is_missing() -> None:
+    """8 N·m against P r sin(θ + β)/cos β: the largest one is missing the rest, and they are equal at both ends."""
+    found = lw.drive_margin(pump(drive="kind: constant, on: crank, torque: 8 N·m"))
+    theta = np.linspace(math.pi, 2 * math.pi, 200_001)
+    beta = np.arcsin(np.sin(theta) * RADIUS / 0.3)
+    needed = -FORCE * RADIUS * np.sin(theta + beta) / np.cos(beta)
+    (stretch,) = found.stretches
+    assert stretch.kind == found.verdict == "stall"
+    assert found.missing_torque == stretch.missing == pytest.approx(needed.max() - 8.0, rel=1e-8)
+    assert stretch.worst == pytest.approx(theta[needed.argmax()], abs=1e-4)
+    assert found.starting_margin == pytest.approx(8.0 / needed.max(), rel=1e-8)
+    short = theta[needed > 8.0]
+    assert [stretch.begin, stretch.end] == pytest.approx([short[0], short[-1]], abs=2e-5)
+    assert f"{needed.max() - 8.0:.4g} N·m too little" in found.findings[0]
+    enough = lw.drive_margin(pump(drive="kind: constant, on: crank, torque: 12 N·m"))
+    assert enough.verdict == "starts" and not enough.stretches and enough.missing_torque == 0.0
+    assert "starts from every position" in enough.findings[0]
+
+
+def test_a_piston_has_no_lever_arm_at_its_dead_points() -> None:
+    """A constant push outwards turns the crank from 180° to 360° only; from 0° to 180° no size of it would."""
+    found = lw.drive_margin(pump(drive="kind: constant, along: guide, force: 1 kN"))
+    (stretch,) = found.stretches
+    assert stretch.kind == found.verdict == "dead_point"
+    assert [stretch.begin, stretch.end] == pytest.approx([0.0, math.pi], abs=1e-6)
+    assert "dead point" in found.findings[0]
+
+
+def test_too_little_torque_on_the_average_slows_the_machine_down() -> None:
+    """A brake of 5 N·m on the crank's side of a drive of 4 N·m."""
+    found = lw.drive_margin(
+        lw.loads(
+            CRANK.format(rod=300, friction=0)
+            + """  drag: {kind: torque, on: crank, magnitude: -5 N·m}
+actuators: {drive: {kind: constant, on: crank, torque: 4 N·m}}
+"""
+        )
+    )
+    assert found.running is not None
+    assert found.running_margin == pytest.approx(0.8, rel=1e-9)
+    assert "less than the 5 N·m" in found.findings[-1]
+
+
+def test_a_diagram_and_a_table() -> None:
+    found = lw.drive_margin(pump(drive="kind: constant, on: crank, torque: 8 N·m"), steps=72)
+    assert found.plot().kind == "drive_margin"
+    assert len(found.columns()["needed_at_rest [N·m]"]) == 72
+    assert "too little" in found.text()

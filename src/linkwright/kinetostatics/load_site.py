@@ -158,7 +158,7 @@ class TracedSite:
         return guide_state(self.motion, joint)
 
     def dimension(self, field: str) -> Scalar:
-        return self.motion.dimensions(f"loads.{self.load.name}.{field}")
+        return self.motion.dimensions(f"{self.load.section}.{self.load.name}.{field}")
 
     def magnitude(self) -> Scalar:
         own, field = self.load.magnitude, self.motion.trace.field_input

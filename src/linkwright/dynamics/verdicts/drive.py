@@ -58,8 +58,8 @@ class Drive:
         self.input_dimension = "angle" if self.rotary else "length"
         self.prescribed = all(each.law.prescribed for each in mechanism.drivers.values())
         self.mechanism = mechanism if self.prescribed else _at_constant_speed(mechanism)
-        self.driven = bool(getattr(mechanism, "actuators", {}))
-        self._load = QuasiStatic(_without_actuators(mechanism))
+        self.driven = bool(mechanism.actuators)
+        self._load = QuasiStatic(replace(mechanism, actuators={}))
 
     @cached_property
     def _all(self) -> QuasiStatic:
@@ -168,7 +168,3 @@ def _senses(rates: Floats) -> Floats:
         return np.ones_like(rates)
     before = moving[np.clip(np.searchsorted(moving, np.arange(len(signs)), "right") - 1, 0, None)]
     return np.asarray(signs[before])
-
-
-def _without_actuators(mechanism: Mechanism) -> Mechanism:
-    return replace(mechanism)
