@@ -33,6 +33,7 @@ ATTACHED.update(
         "Optimum.tables": "linkwright.designs.optimise.optimum:tables",
         "PlotMixin.plot": "linkwright.plotting.diagrams.base:plot",
         "Problem.sketch": "linkwright.plotting.sketches.base:sketch",
+        "Release.worked": "linkwright.worked_solutions.released:worked",
         "Rocking.limits": "linkwright.kinematics.rocking:limits",
         "Rack.draw": "linkwright.plotting.true_shapes:draw_rack",
         "Rack.save_dxf": "linkwright.exporters.true_shapes:save_rack",

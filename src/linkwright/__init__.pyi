@@ -46,6 +46,8 @@ from .designs.study import Study as Study
 from .designs.study import study as study
 from .designs.sweep import Sweep as Sweep
 from .designs.sweep import sweep as sweep
+from .dynamics.release import Release as Release
+from .dynamics.release import release as release
 from .dynamics.verdicts.drive_margin import DriveMargin as DriveMargin
 from .dynamics.verdicts.drive_margin import drive_margin as drive_margin
 from .errors import Finding as Finding

@@ -10,8 +10,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from math import cos, radians, sin, sqrt, tan
 
+import numpy as np
+import pytest
+
 Vec = tuple[float, float]
 G = 9.81
+#: Of answers, as share.
+TOLERANCE = 1e-11
 HEAD = "format: 1\ngravity: [0, -9.81 m/s²]\n"
 WEIGHTLESS = "format: 1\n"
 
@@ -461,3 +466,16 @@ def planet_in_a_fixed_ring() -> Problem:
     push = -jp * big * alpha / r**2
     force = {"roll on planet": (0.0, push), "C on planet": (0.0, m * big * alpha - push)}
     return Problem("planet in a ring", text, {"arm": alpha, "planet": -big * alpha / r}, {}, force)
+
+
+def compare(problem: Problem, alpha, acceleration, force) -> None:  # type: ignore[no-untyped-def]
+    """Whether functions of links, points and joints give the answers."""
+    turned = {link: alpha(link) for link in problem.alpha}
+    assert turned == pytest.approx(dict(problem.alpha), rel=TOLERANCE, abs=TOLERANCE)
+    for place, expected in problem.acceleration.items():
+        assert acceleration(*place.split(".")) == pytest.approx(expected, rel=TOLERANCE, abs=1e-10), place
+    for what, expected in problem.force.items():
+        size = float(np.hypot(*expected))
+        assert force(*what.split(" on ")) == pytest.approx(expected, rel=TOLERANCE, abs=TOLERANCE * max(size, 1.0)), (
+            what
+        )

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.dynamics.release_problems import PROBLEMS, Problem
+from tests.dynamics.release_problems import PROBLEMS, compare
 from tests.multibody import FreeMultibody
 from tests.reference.geared import Geared
 from tests.reference.multibody import Array
 
 import linkwright as lw
-
-TOLERANCE = 1e-11
 
 
 @pytest.mark.parametrize("made", PROBLEMS, ids=lambda made: made.__name__)
@@ -29,16 +27,3 @@ def test_the_independent_integration_gives_the_answers(made) -> None:  # type: i
         return forces.on(joint, link)[0][0] + np.sum(more, axis=0)
 
     compare(problem, lambda link: float(found.motion.angle(link)[2][0]), acceleration, force)
-
-
-def compare(problem: Problem, alpha, acceleration, force) -> None:  # type: ignore[no-untyped-def]
-    """Whether functions of links, points and joints give the answers."""
-    turned = {link: alpha(link) for link in problem.alpha}
-    assert turned == pytest.approx(dict(problem.alpha), rel=TOLERANCE, abs=TOLERANCE)
-    for place, expected in problem.acceleration.items():
-        assert acceleration(*place.split(".")) == pytest.approx(expected, rel=TOLERANCE, abs=1e-10), place
-    for what, expected in problem.force.items():
-        size = float(np.hypot(*expected))
-        assert force(*what.split(" on ")) == pytest.approx(expected, rel=TOLERANCE, abs=TOLERANCE * max(size, 1.0)), (
-            what
-        )

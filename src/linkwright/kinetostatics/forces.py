@@ -14,6 +14,9 @@ from linkwright.core.attached import PlotMixin, attached
 from linkwright.core.data import locked
 from linkwright.core.outputs import kind_of, row_name, row_names
 from linkwright.errors import RequestError
+from linkwright.formula.numpy_backend import NumpyProgram
+from linkwright.formula.program import Program
+from linkwright.formula.trace import Scalar
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.mechanism.mechanism import Mechanism
@@ -280,6 +283,15 @@ class Forces(PlotMixin):
         if not self.motion.ok.all():
             values[:, ~self.motion.ok] = np.nan
         return values
+
+    def evaluate_traced(self, outputs: dict[str, Scalar]) -> Floats:
+        """Values of the trace of motion and forces, by any names, at all positions, (outputs, n)."""
+        motion = self.motion
+        program = NumpyProgram(Program.of(motion.solver.motion.trace, outputs))
+        inner = program.program
+        parameters = [motion.design.parameters[name] for name in inner.parameters]
+        arrays, fields = {**motion.positions.arrays, **motion.modes}, {**motion.states, **self.fields}
+        return np.asarray(program.run(parameters, arrays, fields, length=motion.steps))
 
     @attached
     def _repr_svg_(self) -> str | None:

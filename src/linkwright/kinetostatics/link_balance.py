@@ -10,8 +10,6 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.data import locked
 from linkwright.core.outputs import row_name, row_names
-from linkwright.formula.numpy_backend import NumpyProgram
-from linkwright.formula.program import Program
 from linkwright.formula.trace import Scalar
 from linkwright.kinetostatics.forces import Forces
 
@@ -145,18 +143,8 @@ def applied_wrenches(forces: Forces, index: int) -> list[AppliedWrench]:
         outputs |= {f"{name}#{i}#{j}": part for j, part in enumerate(parts)}
     if not outputs:
         return []
-    rows = _evaluated(forces, outputs)[:, index].reshape(-1, 5).tolist()
+    rows = forces.evaluate_traced(outputs)[:, index].reshape(-1, 5).tolist()
     return [
         AppliedWrench(name, w.link, (fx, fy), (px, py), torque)
         for (name, _, w), (fx, fy, px, py, torque) in zip(order, rows, strict=True)
     ]
-
-
-def _evaluated(forces: Forces, outputs: dict[str, Scalar]) -> Floats:
-    """The outputs at all positions, (outputs, n)."""
-    motion = forces.motion
-    program = NumpyProgram(Program.of(motion.solver.motion.trace, outputs))
-    inner = program.program
-    parameters = [motion.design.parameters[name] for name in inner.parameters]
-    arrays, fields = {**motion.positions.arrays, **motion.modes}, {**motion.states, **forces.fields}
-    return np.asarray(program.run(parameters, arrays, fields, length=motion.steps))

@@ -72,6 +72,11 @@ class KnownForces:
         self._loads(loads)
         return [head, inertia, loads]
 
+    @property
+    def acting(self) -> list[AppliedWrench]:
+        """What loads and friction do, after the steps are written."""
+        return self._found
+
     def _own(self, step: Step, link: str) -> None:
         """Weight and inertia force at the mass centre, inertia couple."""
         book, part = self.book, self.book.mechanism.links[link]

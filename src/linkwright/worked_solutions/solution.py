@@ -152,13 +152,13 @@ def worked(source: Forces | Motion, position: int = 0, *, at: float | None = Non
     index = position % motion.steps
     translate = speaker(language)
     book = SymbolTable(motion, index, translate)
-    steps = _Kinematics(book).steps()
+    steps = Kinematics(book).steps()
     if isinstance(source, Forces):
         from linkwright.worked_solutions.solution import force_steps
 
         steps += force_steps(source, book, len(steps) and int(steps[-1].number.split(".")[0]))
     title = translate(_("{name}: worked solution of one position", name=motion.mechanism.name))
-    return Worked(title, tuple(step for step in steps if step.items), tuple(_legend(book)), index)
+    return Worked(title, tuple(step for step in steps if step.items), tuple(legend(book)), index)
 
 
 def _solved_at(source: Forces | Motion, at: float) -> Forces | Motion:
@@ -197,7 +197,7 @@ def _refuse_missing(motion: Motion, position: int) -> None:
         )
 
 
-def _legend(book: SymbolTable) -> list[str]:
+def legend(book: SymbolTable) -> list[str]:
     translate = book.translate
     links = ", ".join(numbered_links(book.numbers, language_of(translate)))
     return [
@@ -221,7 +221,7 @@ def _legend(book: SymbolTable) -> list[str]:
     ]
 
 
-class _Kinematics:
+class Kinematics:
     """Steps of the motion, group by group."""
 
     def __init__(self, book: SymbolTable) -> None:
@@ -235,7 +235,7 @@ class _Kinematics:
         found = [self._input()] if self.book.mechanism.drivers else []
         for group in self.book.motion.structure.groups:
             number = len({step.number.split(".")[0] for step in found}) + 1
-            found += self._group(group, number)
+            found += self.group(group, number)
         if self.book.mechanism.outputs:
             found.append(named_step(self.book, len({step.number.split(".")[0] for step in found}) + 1))
         return found
@@ -266,7 +266,7 @@ class _Kinematics:
                     step.give(term, what)
         return step
 
-    def _group(self, group: Group, number: int) -> list[Step]:
+    def group(self, group: Group, number: int) -> list[Step]:
         translate, name = self.book.translate, group.name
         links = ", ".join(f"{self.book.numbers[link]} {link}" for link in group.links)
         moving = bool(self.book.mechanism.drivers)

@@ -145,8 +145,7 @@ class SymbolTable:
         acceleration = self._components("a", label, *at.acceleration[self.index])
         return PointState(key, label, place, velocity, acceleration, False)
 
-    @staticmethod
-    def _components(letter: str, label: str, x: float, y: float) -> Pair:
+    def _components(self, letter: str, label: str, x: float, y: float) -> Pair:
         named = (symbol(f"{letter}_{label}{c}", float(v)) for c, v in (("x", x), ("y", y)))
         return Pair(*named)
 

@@ -1,0 +1,127 @@
+"""Motion and forces at states of a mechanism under forces that were found: its inputs, their rates and accelerations.
+
+They are read like those of a motion that drivers prescribe; every row comes from the equation of motion's own trace,
+its comparisons held as they are there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.core.inputs import Input
+from linkwright.dynamics.equation import EquationOfMotion
+from linkwright.formula.program import Program
+from linkwright.formula.trace import Scalar
+from linkwright.kinematics.motion import Motion, Rows
+from linkwright.kinematics.positions import Positions
+from linkwright.kinetostatics.forces import Forces
+
+#: Inputs of the equation's programs by name, (n,) each or one number.
+Given = Mapping[str, Floats | float]
+
+
+@dataclass
+class FoundStates:
+    """States at n times: ``held`` are switches by name, (n,) each, with their share in what acts: one alone where all
+    that rubs slides, those of both senses where it sticks."""
+
+    equation: EquationOfMotion
+    positions: Positions
+    held: Sequence[tuple[float, Given]]
+    states: Mapping[str, Floats] = field(default_factory=dict)
+    modes: Mapping[str, Floats] = field(default_factory=dict)
+    _programs: dict[tuple[str, ...], Program] = field(default_factory=dict, init=False, repr=False)
+
+    @property
+    def given(self) -> dict[str, Floats | float]:
+        """Inputs of the programs but for the switches."""
+        found: dict[str, Floats | float] = {"time": self.positions.time, **self.states, **self.modes}
+        for name, (q, rate, second) in self.positions.coordinates.items():
+            found |= {f"q:{name}": q, f"w:{name}": rate, Input("second", name).name: second}
+        return found
+
+    def motion_rows(self, names: tuple[str, ...]) -> Floats:
+        """Rows of the motion, (names, n)."""
+        outputs = self.equation.solver.outputs
+        return self._run(names, lambda: self.equation.value_program({name: outputs.value(name) for name in names}))
+
+    def force_rows(self, names: tuple[str, ...]) -> Floats:
+        """Rows of the forces, (names, n)."""
+        return self._run(names, lambda: self.equation.row_program(names))
+
+    def values(self, outputs: Mapping[str, Scalar]) -> Floats:
+        """Values of the trace of motion and forces, (outputs, n)."""
+        return self._blended(self.equation.value_program(outputs))
+
+    def _run(self, names: tuple[str, ...], program: Callable[[], Program]) -> Floats:
+        if names not in self._programs:
+            self._programs[names] = program()
+        return self._blended(self._programs[names])
+
+    def _blended(self, program: Program) -> Floats:
+        found = [
+            share * self.equation.run(program, {**self.given, **switches}, self.positions.count)
+            for share, switches in self.held
+        ]
+        return np.asarray(sum(found))
+
+
+@dataclass(eq=False, repr=False)
+class FoundMotion(Motion):
+    """The motion at states that were found; see :class:`linkwright.Motion`."""
+
+    found: FoundStates = field(kw_only=True)
+
+    def evaluate(self, names: tuple[str, ...]) -> Floats:
+        """Outputs by name, (names, n); NaN where a position was not reached."""
+        values = self.found.motion_rows(names)
+        if not self.ok.all():
+            values[:, ~self.ok] = np.nan
+        return values
+
+
+@dataclass(eq=False, repr=False)
+class FoundForces(Forces):
+    """The forces at states that were found; see :class:`linkwright.Forces`. The effort of a driver that is free is
+    zero but for rounding."""
+
+    found: FoundStates = field(kw_only=True)
+
+    def evaluate(self, names: tuple[str, ...]) -> Floats:
+        """Outputs by name, (names, n); NaN where a position was not reached."""
+        values = self.found.force_rows(names)
+        if not self.motion.ok.all():
+            values[:, ~self.motion.ok] = np.nan
+        return values
+
+    def evaluate_traced(self, outputs: dict[str, Scalar]) -> Floats:
+        """Values of the trace of motion and forces, (outputs, n)."""
+        return self.found.values(outputs)
+
+
+def motion_at(found: FoundStates) -> FoundMotion:
+    """The motion at states that were found."""
+    solver = found.equation.solver
+    names = solver.outputs.standard
+    values = found.motion_rows(names)
+    values[:-1, values[-1] != 0.0] = np.nan
+    rows = Rows(values, solver.programs.places(names))
+    return FoundMotion(solver, solver.nominal, found.positions, rows, found.states, found.modes, found=found)
+
+
+def forces_at(motion: FoundMotion) -> FoundForces:
+    """The forces at the states of a motion.
+
+    Raises SelfCheckError where they do not balance, or their powers are not those of the drivers.
+    """
+    solver = motion.found.equation.forces
+    names = solver.programs.checks.names
+    values = motion.found.force_rows(names)
+    values[:, ~motion.ok] = np.nan
+    rows = Rows(values, {name: place for place, name in enumerate(names)})
+    solver.programs.checks.require(rows, motion)
+    return FoundForces(motion, solver, {}, False, rows, found=motion.found)
