@@ -16,6 +16,8 @@ ATTACHED.update(
         "CamDesign.steps": "linkwright.cams.report:steps",
         "Comparison.evaluation": "linkwright.designs.evaluation:evaluation",
         "Comparison.tables": "linkwright.designs.evaluation:tables",
+        "Equilibria.remarks": "linkwright.dynamics.equilibrium_text:remarks",
+        "Equilibria.tables": "linkwright.dynamics.equilibrium_text:tables",
         "Forces._repr_svg_": "linkwright.plotting.drawing.draw:picture_of",
         "Forces.balance_residual": "linkwright.kinetostatics.link_balance:balance_residual",
         "Forces.columns": "linkwright.kinetostatics.table:force_columns",

@@ -46,6 +46,10 @@ from .designs.study import Study as Study
 from .designs.study import study as study
 from .designs.sweep import Sweep as Sweep
 from .designs.sweep import sweep as sweep
+from .dynamics.displacement import Displacement as Displacement
+from .dynamics.equilibria import Equilibria as Equilibria
+from .dynamics.equilibria import Equilibrium as Equilibrium
+from .dynamics.equilibrium import equilibrium as equilibrium
 from .dynamics.release import Release as Release
 from .dynamics.release import release as release
 from .dynamics.verdicts.drive_margin import DriveMargin as DriveMargin

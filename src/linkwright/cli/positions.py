@@ -112,14 +112,15 @@ def places(text: str, mechanism: Mechanism, dimension: str, option: str) -> list
         return listed.times(mechanism) if dimension == "time" else listed.inputs(mechanism)
 
 
-def zone_of(text: str, across: str) -> tuple[float, float]:
+def zone_of(text: str, across: str, option: str = "--zone") -> tuple[float, float]:
     """The ends of a zone, rad or m, from ``-880..-1450 deg``; raises QuantityError."""
     first, dots, last = (each.strip() for each in text.partition(".."))
     if not dots:
         raise UsageError(
             _(
-                '--zone: invalid zone "{text}"; write where it begins and ends, such as "90..210 deg"',
+                '{option}: invalid range "{text}"; write where it begins and ends, such as "90..210 deg"',
                 code="compensate.bad_zone",
+                option=option,
                 text=text,
             )
         )

@@ -236,8 +236,19 @@ class EquationOfMotion:
         """The same of any values of the trace of the motion, such as those of ``forces``, ``plain``, ``resting``."""
         t = Trace()
         seconds = {name: t.position(Input("second", name).name) for name in self.names}
-        source, held = self.switches.program(values)
-        return Program.of(t, Held(source, held, t, self._given(t, source, seconds)).outputs)
+        return Program.of(t, self.written(t, values, seconds))
+
+    def unaccelerated(self, t: Trace) -> tuple[dict[str, Scalar | bool], dict[str, Scalar]]:
+        """Efforts ``T:A`` without acceleration, and without friction of joints ``S:A``, ``M:A:B`` and the rest, in
+        another trace; and the gaps of the switches."""
+        return self._inlined(t, dict.fromkeys(self.names, 0.0))
+
+    def written(
+        self, t: Trace, outputs: Mapping[str, Scalar | bool], seconds: Mapping[str, Scalar]
+    ) -> dict[str, Scalar | bool]:
+        """Values of the motion's trace as values of another trace, at accelerations of all inputs, switches held."""
+        source, held = self.switches.program(outputs)
+        return Held(source, held, t, self._given(t, source, seconds)).outputs
 
     def evaluate(self, names: Iterable[str], given: Mapping[str, Floats | float], count: int) -> Floats:
         """Outputs (names, n) at inputs by name, arrays (n,) or numbers; 0 for those that are not given."""
