@@ -1,6 +1,6 @@
 """Units at the edge of the program: text to SI floats and back.
 
-A unit is a factor to SI and a dimension, the exponents of (length, mass, time, angle); an angle is a
+A unit is a factor to SI and a dimension, the exponents of (length, mass, time, current, angle); an angle is a
 dimension of its own here, so that a torque (N·m) cannot pass for a torsional stiffness (N·m/rad).
 """
 
@@ -15,41 +15,45 @@ from linkwright.errors import QuantityError
 from linkwright.registry import nearest
 from linkwright.words import Message, _
 
-Dimension = tuple[float, float, float, float]
+Dimension = tuple[float, float, float, float, float]
 
-NONE: Dimension = (0, 0, 0, 0)
+NONE: Dimension = (0, 0, 0, 0, 0)
 #: Dimensions by name: what a value of one is called, its powers, the SI unit, and a bound that no machine reaches, in
 #: SI: beyond it is a mistake in a number or its unit, and squares of it stay finite.
 _DIMENSIONS: Mapping[str, tuple[Message, Dimension, str, float]] = {
     "dimensionless": (_("a dimensionless number"), NONE, "", 1e12),
-    "length": (_("a length"), (1, 0, 0, 0), "m", 1e7),
-    "angle": (_("an angle"), (0, 0, 0, 1), "rad", 1e9),
-    "time": (_("a time"), (0, 0, 1, 0), "s", 1e10),
-    "mass": (_("a mass"), (0, 1, 0, 0), "kg", 1e12),
-    "inertia": (_("an inertia"), (2, 1, 0, 0), "kg·m²", 1e24),
-    "velocity": (_("a velocity"), (1, 0, -1, 0), "m/s", 3e8),
-    "acceleration": (_("an acceleration"), (1, 0, -2, 0), "m/s²", 1e12),
-    "angular_velocity": (_("an angular velocity"), (0, 0, -1, 1), "rad/s", 1e8),
-    "angular_acceleration": (_("an angular acceleration"), (0, 0, -2, 1), "rad/s²", 1e14),
-    "frequency": (_("a frequency"), (0, 0, -1, 0), "Hz", 1e9),
-    "force": (_("a force"), (1, 1, -2, 0), "N", 1e15),
-    "torque": (_("a torque"), (2, 1, -2, 0), "N·m", 1e18),
-    "power": (_("a power"), (2, 1, -3, 0), "W", 1e18),
-    "pressure": (_("a pressure"), (-1, 1, -2, 0), "Pa", 1e14),
-    "area": (_("an area"), (2, 0, 0, 0), "m²", 1e14),
-    "volume": (_("a volume"), (3, 0, 0, 0), "m³", 1e21),
-    "density": (_("a density"), (-3, 1, 0, 0), "kg/m³", 1e8),
-    "stiffness": (_("a stiffness"), (0, 1, -2, 0), "N/m", 1e18),
-    "damping": (_("a damping"), (0, 1, -1, 0), "N·s/m", 1e18),
-    "torsional_stiffness": (_("a torsional stiffness"), (2, 1, -2, -1), "N·m/rad", 1e21),
-    "torsional_damping": (_("a torsional damping"), (2, 1, -1, -1), "N·m·s/rad", 1e21),
-    "second_moment_of_area": (_("a second moment of area"), (4, 0, 0, 0), "m⁴", 1e12),
-    "line_load": (_("a line load"), (0, 1, -2, 0), "N/m", 1e15),
-    "linear_density": (_("a linear density"), (-1, 1, 0, 0), "kg/m", 1e12),
-    "mass_moment": (_("a mass moment"), (1, 1, 0, 0), "kg·m", 1e18),
-    "length_per_angle": (_("a length per angle"), (1, 0, 0, -1), "m/rad", 1e7),
-    "length_per_angle_squared": (_("a length per angle squared"), (1, 0, 0, -2), "m/rad²", 1e7),
-    "per_angle": (_("a value per angle"), (0, 0, 0, -1), "1/rad", 1e7),
+    "length": (_("a length"), (1, 0, 0, 0, 0), "m", 1e7),
+    "angle": (_("an angle"), (0, 0, 0, 0, 1), "rad", 1e9),
+    "time": (_("a time"), (0, 0, 1, 0, 0), "s", 1e10),
+    "mass": (_("a mass"), (0, 1, 0, 0, 0), "kg", 1e12),
+    "inertia": (_("an inertia"), (2, 1, 0, 0, 0), "kg·m²", 1e24),
+    "velocity": (_("a velocity"), (1, 0, -1, 0, 0), "m/s", 3e8),
+    "acceleration": (_("an acceleration"), (1, 0, -2, 0, 0), "m/s²", 1e12),
+    "angular_velocity": (_("an angular velocity"), (0, 0, -1, 0, 1), "rad/s", 1e8),
+    "angular_acceleration": (_("an angular acceleration"), (0, 0, -2, 0, 1), "rad/s²", 1e14),
+    "frequency": (_("a frequency"), (0, 0, -1, 0, 0), "Hz", 1e9),
+    "force": (_("a force"), (1, 1, -2, 0, 0), "N", 1e15),
+    "torque": (_("a torque"), (2, 1, -2, 0, 0), "N·m", 1e18),
+    "power": (_("a power"), (2, 1, -3, 0, 0), "W", 1e18),
+    "pressure": (_("a pressure"), (-1, 1, -2, 0, 0), "Pa", 1e14),
+    "area": (_("an area"), (2, 0, 0, 0, 0), "m²", 1e14),
+    "volume": (_("a volume"), (3, 0, 0, 0, 0), "m³", 1e21),
+    "density": (_("a density"), (-3, 1, 0, 0, 0), "kg/m³", 1e8),
+    "stiffness": (_("a stiffness"), (0, 1, -2, 0, 0), "N/m", 1e18),
+    "damping": (_("a damping"), (0, 1, -1, 0, 0), "N·s/m", 1e18),
+    "torsional_stiffness": (_("a torsional stiffness"), (2, 1, -2, 0, -1), "N·m/rad", 1e21),
+    "torsional_damping": (_("a torsional damping"), (2, 1, -1, 0, -1), "N·m·s/rad", 1e21),
+    "second_moment_of_area": (_("a second moment of area"), (4, 0, 0, 0, 0), "m⁴", 1e12),
+    "line_load": (_("a line load"), (0, 1, -2, 0, 0), "N/m", 1e15),
+    "linear_density": (_("a linear density"), (-1, 1, 0, 0, 0), "kg/m", 1e12),
+    "mass_moment": (_("a mass moment"), (1, 1, 0, 0, 0), "kg·m", 1e18),
+    "length_per_angle": (_("a length per angle"), (1, 0, 0, 0, -1), "m/rad", 1e7),
+    "length_per_angle_squared": (_("a length per angle squared"), (1, 0, 0, 0, -2), "m/rad²", 1e7),
+    "current": (_("an electric current"), (0, 0, 0, 1, 0), "A", 1e9),
+    "voltage": (_("a voltage"), (2, 1, -3, -1, 0), "V", 1e12),
+    "resistance": (_("an electric resistance"), (2, 1, -3, -2, 0), "ohm", 1e12),
+    "torque_per_current": (_("a torque per current"), (2, 1, -2, -1, 0), "N·m/A", 1e12),
+    "per_angle": (_("a value per angle"), (0, 0, 0, 0, -1), "1/rad", 1e7),
 }
 NOUNS: Mapping[str, Message] = {name: each[0] for name, each in _DIMENSIONS.items()}
 DIMENSIONS: Mapping[str, Dimension] = {name: each[1] for name, each in _DIMENSIONS.items()}
@@ -105,11 +109,26 @@ dimensionless: % 1e-2
 """
 _TURN = 2 * math.pi
 _FACTORS = {"g0": GRAVITY, "π/180": math.pi / 180, "2π": _TURN, "2π/60": _TURN / 60}
-UNITS: Mapping[str, tuple[float, Dimension]] = {
-    name: (_FACTORS.get(factor) or float(factor), DIMENSIONS[dimension])
-    for dimension, _unused, row in (line.partition(": ") for line in _UNIT_TABLE.splitlines())
-    for name, factor in map(str.split, row.split(", "))
-}
+#: Units of motors, which stand behind numbers only: elsewhere A and V are names of points, links and parameters.
+_ELECTRICAL_TABLE = """\
+current: A 1, mA 1e-3
+voltage: V 1, mV 1e-3, kV 1e3
+resistance: ohm 1, mohm 1e-3, kohm 1e3, Ω 1, mΩ 1e-3, kΩ 1e3
+"""
+
+
+def _factors(table: str) -> Mapping[str, tuple[float, Dimension]]:
+    """Units of a table, each with its factor to SI and its dimension."""
+    return {
+        name: (_FACTORS.get(factor) or float(factor), DIMENSIONS[dimension])
+        for dimension, _unused, row in (line.partition(": ") for line in table.splitlines())
+        for name, factor in map(str.split, row.split(", "))
+    }
+
+
+UNITS = _factors(_UNIT_TABLE)
+#: The units that a number may have.
+BEHIND_NUMBERS: Mapping[str, tuple[float, Dimension]] = {**UNITS, **_factors(_ELECTRICAL_TABLE)}
 #: Other spellings of units, behind the right one.
 _SPELLING_TABLE = """\
 N·m: Nm N-m N.m mN·m 牛米; kN·m: kNm; N·mm: Nmm; kg·m²: kgm² kgm2 kgm^2; m²: m2; s²: s2; m³: m3; mm²: mm2
@@ -119,6 +138,7 @@ ft: feet foot; deg: degree degrees grad 度; rad: radian radians rads 弧度; N:
 kg: kilogram kilograms kgs 千克 公斤; g: gram; t: tonne ton 吨; rev/s: rps; rev: r turn turns 转; %: percent ％
 rpm: U/min u/min 转/分 转/分钟; lbf/in²: psi; lbf·s²/ft: slug slugs; lbf·s²/in: blob blobs; kgf: kp 公斤力
 lb: lbs; MPa: Mpa 兆帕; Hz: hz; cm: 厘米; kN: 千牛; kW: 千瓦
+V: volt volts 伏 伏特; A: amp amps ampere amperes 安 安培; ohm: ohms Ohm 欧 欧姆
 """
 SPELLINGS: Mapping[str, str] = {
     spelling: unit
@@ -147,7 +167,13 @@ def tidy(text: str) -> str:
 
 def times(a: Dimension, b: Dimension, sign: float = 1) -> Dimension:
     """Dimension of a product (``sign`` 1), a quotient (-1), or of ``a`` times a power of ``b``."""
-    return (a[0] + sign * b[0], a[1] + sign * b[1], a[2] + sign * b[2], a[3] + sign * b[3])
+    return (a[0] + sign * b[0], a[1] + sign * b[1], a[2] + sign * b[2], a[3] + sign * b[3], a[4] + sign * b[4])
+
+
+def nearly(a: Dimension, b: Dimension) -> bool:
+    """Whether two dimensions are the same but for an angle, which counts for nothing in products; not those of
+    angles and numbers."""
+    return a[:4] == b[:4] != NONE[:4]
 
 
 def exponent(text: str) -> int:
@@ -183,9 +209,9 @@ def _read(text: str) -> tuple[float, Dimension] | int:
         factor, dimension, sign, at = _TURN, UNITS["rev"][1], -1, turning.end()
     while True:
         found = _FACTOR.match(text, at)
-        if found is None or found.group(1) not in UNITS:
+        if found is None or found.group(1) not in BEHIND_NUMBERS:
             return at
-        size, kind = UNITS[found.group(1)]
+        size, kind = BEHIND_NUMBERS[found.group(1)]
         power = sign * exponent(found.group(2) or "")
         factor, dimension, at = factor * size**power, times(dimension, kind, power), found.end()
         if at == len(text):
@@ -228,7 +254,7 @@ def suggestion(text: str) -> str | None:
 
 def _factor_suggestion(part: str) -> str | None:
     found = _FACTOR.fullmatch(part)
-    if found and found.group(1) in UNITS:
+    if found and found.group(1) in BEHIND_NUMBERS:
         return part
     if part in SPELLINGS:
         return SPELLINGS[part]
@@ -340,7 +366,7 @@ def _fitting_remedy(text: str, dimension: str) -> Message:
     fits = suggestion(product) == product and unit(product)[1] == wanted
     offer = product if fits else suggestion(text)
     if not offer or (unit(offer)[1] != wanted and _letters(offer) != _letters(text)):
-        offer = nearest(text, [name for name, (_unused, kind) in UNITS.items() if kind == wanted])
+        offer = nearest(text, [name for name, (_unused, kind) in BEHIND_NUMBERS.items() if kind == wanted])
     if offer:
         return _('did you mean "{offer}"?', offer=offer)
     return _('write a number and a unit, such as "{example}"', example=example(dimension))
@@ -418,7 +444,7 @@ def si_unit(dimension: str) -> str:
 
 
 def powers(dimension: str) -> Dimension:
-    """Powers of metre, kilogram, second and radian in a dimension; raises KeyError for one that is not known."""
+    """Powers of metre, kilogram, second, ampere, radian in a dimension; raises KeyError for one that is not known."""
     if dimension in DIMENSIONS:
         return DIMENSIONS[dimension]
     return unit(si_unit(dimension))[1] if si_unit(dimension) else NONE
@@ -443,7 +469,7 @@ def si_symbol(kind: Dimension) -> str:
             return SI_UNITS[name]
     return "·".join(
         f"{symbol}^{power:g}" if power != 1 else symbol
-        for symbol, power in zip(("m", "kg", "s", "rad"), kind, strict=True)
+        for symbol, power in zip(("m", "kg", "s", "A", "rad"), kind, strict=True)
         if power
     )
 

@@ -49,16 +49,15 @@ class Actuator(Load):
 
     @classmethod
     def fields(cls) -> dict[str, Field]:
-        """The keys of a file by their names, those about the time last."""
-        found = super().fields()
-        return dict(sorted(found.items(), key=lambda each: each[0] in _TIMES))
+        """The keys of a file by their names: first where it acts, those about the time last."""
+        return dict(sorted(super().fields().items(), key=lambda each: _rank(each[0])))
 
     def fields_with_values(self) -> Iterator[tuple[str, Field, Any]]:
-        yield from sorted(super().fields_with_values(), key=lambda each: each[0] in _TIMES)
+        yield from sorted(super().fields_with_values(), key=lambda each: _rank(each[0]))
 
     @classmethod
     def check(cls, values: Mapping[str, Any], report: Report) -> None:
-        begin, until = (values.get(name) for name in _TIMES)
+        begin, until = (values.get(name) for name in TIMES)
         if begin is not None and until is not None and until <= begin:
             problem = _(
                 "it ceases to act at {until:g} s, before it begins at {begin:g} s",
@@ -77,22 +76,23 @@ class Actuator(Load):
         return effort
 
 
-#: Fields that say when an actuator acts.
-_TIMES = ("begin", "until")
+#: Fields that say where an actuator acts, and when.
+WHERE, TIMES = ("on", "against", "along", "between"), ("begin", "until")
+
+
+def _rank(field: str) -> int:
+    return WHERE.index(field) if field in WHERE else len(WHERE) + (field in TIMES)
 
 
 @dataclass(frozen=True, kw_only=True)
-class AlongCoordinate(Actuator):
-    """An actuator along one coordinate, with an effort and a rate whose product is its power.
+class AlongLine(Actuator):
+    """An actuator along a line, with a force (N) and a rate (m/s) whose product is its power.
 
-    ``on``: a link that turns against the link ``against``, effort N·m on ``on``, counter-clockwise positive;
-    ``along``: a prismatic joint, effort N on its block along its guide; ``between``: two points, effort N that pushes
-    them apart, positive.
+    ``along``: a prismatic joint, the force pushes its block in the direction of its guide; ``between``: two points,
+    the force pushes them apart.
     """
 
-    exactly_one: ClassVar[tuple[tuple[str, ...], ...]] = (("on", "along", "between"),)
-    on: str | None = base.link(moving=True, default=None, doc=_("the link that it turns"))
-    against: str = base.link(default="frame", doc=_("the link that takes the opposite torque (default: frame)"))
+    exactly_one: ClassVar[tuple[tuple[str, ...], ...]] = (("along", "between"),)
     along: str | None = base.joint("slide", default=None, doc=_("the prismatic joint along which it pushes"))
     between: tuple[LinkPoint, LinkPoint] | None = base.points(
         default=None, doc=_("the two points that it pushes apart, [link.point, link.point]")
@@ -102,17 +102,14 @@ class AlongCoordinate(Actuator):
     def check(cls, values: Mapping[str, Any], report: Report) -> None:
         super().check(values, report)
         base.check_between(values, report)
-        check_against(values, report)
 
     @property
     def rotary(self) -> bool:
         """Whether its effort is a torque."""
-        return self.on is not None
+        return False
 
     def rate(self, site: Site) -> Scalar:
         """The rate of its coordinate, rad/s or m/s."""
-        if self.on is not None:
-            return site.turning(self.on, self.against)
         if self.along is not None:
             return site.guide(self.along)[2]
         a, b = self._ends
@@ -121,24 +118,18 @@ class AlongCoordinate(Actuator):
 
     def second(self, site: Site) -> Scalar:
         """The rate of its rate, rad/s² or m/s²; of two points there is none."""
-        if self.on is not None:
-            return site.turning_second(self.on, self.against)
         assert self.along is not None
         return site.sliding_second(self.along)
 
     def sense(self, site: Site) -> Scalar:
         """1 or -1: the sense in which it drives, that of a driver of this coordinate where there is one."""
-        if self.on is not None:
-            return site.drive_sense(self.on, self.against)
-        if self.along is not None:
-            guide = site.motion.mechanism.guides[self.along]
-            return site.drive_sense(guide.block, guide.guide)
-        return 1.0
+        if self.along is None:
+            return 1.0
+        guide = site.motion.mechanism.guides[self.along]
+        return site.drive_sense(guide.block, guide.guide)
 
     def acting(self, site: Site, effort: Scalar) -> list[Wrench]:
         """The wrenches of an effort along its coordinate."""
-        if self.on is not None:
-            return [Wrench(self.on, torque=effort), Wrench(self.against, torque=-effort)]
         if self.along is not None:
             joint = site.motion.mechanism.guides[self.along]
             direction, place, _unused = site.guide(self.along)
@@ -160,6 +151,42 @@ class AlongCoordinate(Actuator):
         start, end = site.place(a.link, a.point), site.place(b.link, b.point)
         between = end - start
         return start, end, between * (1.0 / sqrt(between.square))
+
+
+@dataclass(frozen=True, kw_only=True)
+class AlongCoordinate(AlongLine):
+    """An actuator that turns a link, or one along a line.
+
+    ``on``: a link that turns against the link ``against``; the torque (N·m) on it is counter-clockwise positive, and
+    ``against`` takes the opposite one.
+    """
+
+    exactly_one: ClassVar[tuple[tuple[str, ...], ...]] = (("on", "along", "between"),)
+    on: str | None = base.link(moving=True, default=None, doc=_("the link that it turns"))
+    against: str = base.link(default="frame", doc=_("the link that takes the opposite torque (default: frame)"))
+
+    @classmethod
+    def check(cls, values: Mapping[str, Any], report: Report) -> None:
+        super().check(values, report)
+        check_against(values, report)
+
+    @property
+    def rotary(self) -> bool:
+        return self.on is not None
+
+    def rate(self, site: Site) -> Scalar:
+        return super().rate(site) if self.on is None else site.turning(self.on, self.against)
+
+    def second(self, site: Site) -> Scalar:
+        return super().second(site) if self.on is None else site.turning_second(self.on, self.against)
+
+    def sense(self, site: Site) -> Scalar:
+        return super().sense(site) if self.on is None else site.drive_sense(self.on, self.against)
+
+    def acting(self, site: Site, effort: Scalar) -> list[Wrench]:
+        if self.on is None:
+            return super().acting(site, effort)
+        return [Wrench(self.on, torque=effort), Wrench(self.against, torque=-effort)]
 
 
 def check_against(values: Mapping[str, Any], report: Report) -> None:

@@ -276,7 +276,7 @@ def _check_choices(reader: Reader, node: Node, place: Place, cls: type[Load], pr
             reader.error(node, place, problem, _("keep one of {words}", words=group), "choice")
 
 
-def _declares(kind: type[Field]) -> Callable[..., Any]:
+def declares(kind: type[Field]) -> Callable[..., Any]:
     """A function that declares an attribute of a load: from the arguments of a field, and its default; without one
     a file must give it."""
 
@@ -287,17 +287,17 @@ def _declares(kind: type[Field]) -> Callable[..., Any]:
 
 
 #: A quantity in SI of a dimension named in ``units.DIMENSIONS``; limits in SI.
-quantity = _declares(Quantity)
+quantity = declares(Quantity)
 #: A list of quantities of one dimension, by ``names`` (x, y) or of a fixed ``count``.
-values = _declares(Quantities)
+values = declares(Quantities)
 #: The name of a link; ``moving`` excludes the frame. The names of two different links ``[a, b]``.
-link, links = _declares(LinkName), _declares(LinkNames)
+link, links = declares(LinkName), declares(LinkNames)
 #: The name of a point of the link that the earlier field ``of`` names; two points ``[P, Q]`` of it.
-point_of, ray = _declares(PointName), _declares(PointPair)
+point_of, ray = declares(PointName), declares(PointPair)
 #: A point of the mechanism, a LinkPoint; a pair of these.
-point, points = _declares(PointReference), _declares(PointReferences)
+point, points = declares(PointReference), declares(PointReferences)
 #: An Output of the mechanism.
-output = _declares(OutputName)
+output = declares(OutputName)
 
 
 def joint(*coordinates: str, default: Any = REQUIRED, doc: str = "", key: str = "") -> Any:

@@ -149,7 +149,8 @@ class Parser:
         if self.prefer == "variables" and name in self.variables:
             return Binary("*", Number(value, units.NONE, column), self._prefix(), place)
         turning = [entry[1] for entry in self.tokens[self.at : self.at + 3]] in (["r", "/", "min"], ["r", "/", "s"])
-        if name not in units.UNITS and not turning:
+        unit = name in units.UNITS or (name in units.BEHIND_NUMBERS and name not in self.variables)
+        if not unit and not turning:
             if name in self.variables:
                 raise self._fault(
                     _('a factor "{token} {name}" without a sign'),
@@ -167,7 +168,7 @@ class Parser:
         """The node times the unit that follows it, as in ``sqrt(2) m`` and ``(1 + 2) mm``."""
         kind, name, place = self.tokens[self.at]
         behind = kind == "name" and self.tokens[self.at + 1][1] != "("
-        if not behind or name not in units.UNITS or name in self.variables:
+        if not behind or name not in units.BEHIND_NUMBERS or name in self.variables:
             return node
         return Binary("*", node, Number(*self._units(name), place), place)
 
@@ -184,7 +185,7 @@ class Parser:
     def _unit(self, name: str) -> tuple[float, units.Dimension]:
         """The unit at the present token with its power, both consumed."""
         self.at += 1
-        factor, dimension = units.UNITS[name]
+        factor, dimension = units.BEHIND_NUMBERS[name]
         kind, power, _unused = self.tokens[self.at]
         exponent = 1
         if kind == "power":
@@ -204,7 +205,7 @@ class Parser:
         if sign not in ("*", "/") or self.tokens[self.at + 1][0] != "name" or self.tokens[self.at + 2][1] == "(":
             return False
         _unused2, name, place = self.tokens[self.at + 1]
-        if name not in units.UNITS or (self.prefer != "units" and name in self.variables):
+        if name not in units.BEHIND_NUMBERS or (self.prefer != "units" and name in self.variables):
             return False
         if self.text[column] == "*":
             if name in self.variables and name != "t":

@@ -154,7 +154,7 @@ def dimension_of(node: Node, kinds: Mapping[str, units.Dimension]) -> units.Dime
     return _common_dimension((node.left, node.right), kinds, node.column, word)
 
 
-class Derived(tuple[float, float, float, float]):
+class Derived(tuple[float, float, float, float, float]):
     """The dimension of a name whose value is a product of several quantities, see :func:`derived`."""
 
 
@@ -196,7 +196,7 @@ def _common_dimension(
             return other
     if left == right:
         return left
-    if left[:3] == right[:3] != (0, 0, 0):
+    if units.nearly(left, right):
         loose = [derived(node, kinds) for node in nodes]
         if any(loose):
             return left if loose[1] else right

@@ -309,7 +309,7 @@ def fitted(expression: Expression, dimension: str, kinds: Mapping[str, units.Dim
     kind, needed = expression.dimension(kinds), units.DIMENSIONS[dimension]
     if dimension == "frequency" and kind == units.DIMENSIONS["angular_velocity"]:
         return Expression(expression.text, Binary("/", expression.tree, Number(2 * math.pi)), expression.names)
-    near = kind[:3] == needed[:3] != (0, 0, 0)
+    near = units.nearly(kind, needed)
     product = near and derived(expression.tree, kinds)
     if (product and dimension != "frequency") or (kind == needed and not product):
         return expression

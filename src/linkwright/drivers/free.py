@@ -66,7 +66,7 @@ class Free(Law):
     def from_values(cls, values: Mapping[str, object], rotary: bool, parameters: Mapping[str, float]) -> Free:
         start = values.get("start") or 0.0
         assert isinstance(start, float)
-        return cls(start, rotary)
+        return cls(start, rotary=rotary)
 
     def text_values(self) -> Mapping[str, object]:
         return {"free": True, **({"start": self.start} if self.start else {})}

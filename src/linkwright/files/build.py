@@ -134,6 +134,19 @@ class Model:
         keys = {key.rstrip("_"): value for key, value in fields.items()}
         self._section("loads", name, {"kind": kind, **keys})
 
+    def actuator(self, name: str, kind: str, **fields: Any) -> None:
+        """A motor, cylinder, brake or flywheel of a kind, by its keys in a file (``from_`` for ``from``)."""
+        keys = {key.rstrip("_"): value for key, value in fields.items()}
+        self._section("actuators", name, {"kind": kind, **keys})
+
+    def stop(self, name: str, of: str, at: Value, side: str, *, restitution: Value | None = None) -> None:
+        """An end stop: the output does not go ``below``, or ``above``, a value (rad or m)."""
+        self._section("stops", name, {"of": of, "at": at, "side": side, **_present(restitution=restitution)})
+
+    def run(self, **conditions: Any) -> None:
+        """How a run under forces begins and ends, by the keys of a file (``for_`` for ``for``)."""
+        self._data["run"] = {key.rstrip("_"): value for key, value in conditions.items()}
+
     def outputs(self, **formulas: str) -> None:
         """Outputs with names of their own, by formulas of places and rates: ``gap="guide - 0.18 m*wheel"``."""
         for name, formula in formulas.items():

@@ -402,8 +402,8 @@ def _dimension(expression: Expression, kinds: Mapping[str, units.Dimension]) -> 
     for name in dict.fromkeys((*_FIRST, *units.DIMENSIONS, *units.FURTHER)):
         if units.powers(name) == kind:
             return name
-    loose = [name for name in (*_FIRST, *units.DIMENSIONS) if units.DIMENSIONS[name][:3] == kind[:3]]
-    return loose[0] if loose and kind[:3] != (0, 0, 0) else ""
+    loose = (name for name in (*_FIRST, *units.DIMENSIONS) if units.nearly(units.DIMENSIONS[name], kind))
+    return next(loose, "")
 
 
 def _rates(output: Output | None) -> int:

@@ -411,6 +411,8 @@ def _paths(address: str, root: MappingNode) -> list[list[str]]:
             if section == "links" and len(rest) == 2:
                 found += [[section, head, holder, *rest] for holder in ("points", "also")]
     found += [[*path, body, *rest] for path, body in _bodies(head, root)]
+    if head == "run" and len(rest) == 2:
+        found.append([head, rest[0]])
     if head == "frame" and len(rest) == 2:
         found.append(["frame", "points", *rest])
     return found

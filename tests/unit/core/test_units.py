@@ -201,6 +201,9 @@ def test_largest_sizes_are_round_and_a_velocity_s_is_that_of_light() -> None:
         ("torque", "torsional_damping angular_velocity"),
         ("mass", "density volume"),
         ("mass", "linear_density length"),
+        ("power", "voltage current"),
+        ("voltage", "resistance current"),
+        ("torque", "torque_per_current current"),
     ],
 )
 def test_dimensions_multiply_as_their_definitions_say(quantity: str, factors: str) -> None:
@@ -213,10 +216,10 @@ def test_dimensions_multiply_as_their_definitions_say(quantity: str, factors: st
 @pytest.mark.parametrize(
     ("dimension", "symbol", "named"),
     [
-        ((0.5, 0, 0, 0), "m^0.5", False),
-        ((1, 0, -1, 1), "m·s^-1·rad", False),
-        ((1, 1, 0, 0), "kg·m", True),
-        ((0, 0, 0, 0), "", True),
+        ((0.5, 0, 0, 0, 0), "m^0.5", False),
+        ((1, 0, -1, 0, 1), "m·s^-1·rad", False),
+        ((1, 1, 0, 0, 0), "kg·m", True),
+        ((0, 0, 0, 0, 0), "", True),
     ],
 )
 def test_any_dimension_has_a_symbol_and_a_name(dimension: units.Dimension, symbol: str, named: bool) -> None:
