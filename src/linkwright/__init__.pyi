@@ -52,6 +52,8 @@ from .dynamics.equilibria import Equilibrium as Equilibrium
 from .dynamics.equilibrium import equilibrium as equilibrium
 from .dynamics.release import Release as Release
 from .dynamics.release import release as release
+from .dynamics.result import Run as Run
+from .dynamics.run import run as run
 from .dynamics.verdicts.drive_margin import DriveMargin as DriveMargin
 from .dynamics.verdicts.drive_margin import drive_margin as drive_margin
 from .errors import Finding as Finding

@@ -16,13 +16,14 @@ from linkwright.core.arrays import Floats
 from linkwright.core.inputs import Input, driven
 from linkwright.core.outputs import row_name
 from linkwright.dynamics.site import FreeSite, freed, load_numbers
-from linkwright.dynamics.switches import Held, Switches
+from linkwright.dynamics.stops import contact_name, stop_gap
+from linkwright.dynamics.switches import Held, Switches, gap_name
 from linkwright.errors import LinkwrightError
 from linkwright.formula.differentiation import slope
 from linkwright.formula.linear_algebra import determinant, product, solution
 from linkwright.formula.numpy_backend import numpy_program
 from linkwright.formula.program import Program
-from linkwright.formula.trace import Scalar, Trace, cos, sin
+from linkwright.formula.trace import Scalar, Trace, Value, cos, sin
 from linkwright.kinematics.assembly import Assembly, modal_groups
 from linkwright.kinematics.groups import jacobian
 from linkwright.kinematics.programs import Manner, motion_programs
@@ -130,6 +131,7 @@ class EquationOfMotion:
             out["rubbing"] = self.forces.forces.friction_power
         out |= {f"quality:{group}": self._quality(group) for group in self.groups}
         out |= {f"next:{name}": value for name, value in motion.next_states.items()}
+        out |= {f"stop:{name}": stop_gap(motion, stop) for name, stop in self.mechanism.stops.items()}
         return {**out, "outcome": motion.outcome}
 
     def _kinematic(self) -> list[Scalar]:
@@ -180,7 +182,26 @@ class EquationOfMotion:
         out |= self._energies(t, found, fixed)
         out |= {name: value for name, value in found.items() if not name.startswith("T:")}
         out |= {f"h:{name}": found[f"T:{name}"] for name in self.names} | gaps
-        return t, out
+        return t, out | self._rates(t, out, second)
+
+    def _rates(
+        self, t: Trace, out: Mapping[str, Scalar | bool], second: Mapping[str, Scalar]
+    ) -> dict[str, Scalar | bool]:
+        """Rates of gaps, ``rate:K``, and of stops, ``stop_rate:NAME``, ``stop_second:NAME``, along the motion, and
+        their derivatives by the free rates, ``by:K:NAME`` and ``stop_by:NAME:NAME``."""
+        rates = {name: t.position(f"w:{name}") for name in self.names}
+        along: dict[Value, Scalar] = {t.position(f"q:{name}"): rate for name, rate in rates.items()}
+        along |= {rates[name]: second[name] for name in self.names} | {t.position("time"): 1.0}
+        found: dict[str, Scalar | bool] = {}
+        for number in range(len(self.switches.lines)):
+            gap = _number(out[gap_name(number)])
+            found[f"rate:{number}"] = slope(gap, along)
+            found |= {f"by:{number}:{name}": slope(gap, {rates[name]: 1.0}) for name in self.free}
+        for stop in self.mechanism.stops:
+            rate = slope(_number(out[f"stop:{stop}"]), along)
+            found |= {f"stop_rate:{stop}": rate, f"stop_second:{stop}": slope(rate, along)}
+            found |= {f"stop_by:{stop}:{name}": slope(rate, {rates[name]: 1.0}) for name in self.free}
+        return found
 
     def _accelerations(self, found: Mapping[str, Scalar | bool], second: Mapping[str, Scalar]) -> dict[str, Scalar]:
         """One step of Newton's method for the free accelerations: the last one where nothing rubs."""
@@ -219,6 +240,7 @@ class EquationOfMotion:
         for name in source.fields:
             given[name] = t.position(name) if name in carried else 0.0
         given |= {name: t.position(name) for name in source.parameters if name in self.varied}
+        given |= {name: t.position(name) for name in map(contact_name, self.mechanism.stops)}
         return given | {"time": t.position("time"), "input": t.position(f"q:{self.names[0]}")}
 
     # programs -------------------------------------------------------------------------------------------
@@ -227,10 +249,11 @@ class EquationOfMotion:
         t, out = self.traced
         return Program.of(t, {name: out[name] for name in names})
 
-    def row_program(self, names: Iterable[str]) -> Program:
-        """The program of rows of the motion and its forces (see ``core.outputs``) at given accelerations
+    def row_program(self, names: Iterable[str], *, forces: bool) -> Program:
+        """The program of rows of the motion, or of it and its forces (see ``core.outputs``), at given accelerations
         ``second:NAME`` of all inputs, switches held."""
-        return self.value_program({name: self.forces.programs.value(name) for name in names})
+        value = self.forces.programs.value if forces else self.solver.outputs.value
+        return self.value_program({name: value(name) for name in names})
 
     def value_program(self, values: Mapping[str, Scalar | bool]) -> Program:
         """The same of any values of the trace of the motion, such as those of ``forces``, ``plain``, ``resting``."""

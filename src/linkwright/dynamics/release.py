@@ -294,7 +294,7 @@ class _Setting:
         """At rest, the friction between that of the ways: so much of each that no effort is left."""
         efforts = []
         zero = {f"second:{name}": 0.0 for name in self.equation.names}
-        program = self.equation.row_program([f"effort:{name}" for name in self.free])
+        program = self.equation.row_program([f"effort:{name}" for name in self.free], forces=True)
         for each in held:
             efforts.append(self.equation.run(program, {**self.given, **zero, **self._named(each)}, 1)[:, 0])
         between = _between(efforts)

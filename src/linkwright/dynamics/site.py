@@ -12,6 +12,7 @@ from linkwright.core.inputs import Input
 from linkwright.drivers.base import Driver
 from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.drivers.free import Free
+from linkwright.dynamics.stops import contact
 from linkwright.errors import LinkwrightError
 from linkwright.formula.table import Table
 from linkwright.formula.trace import Scalar, select
@@ -54,13 +55,14 @@ class FreeSite(TracedSite):
 
 
 def freed(mechanism: Mechanism) -> Mechanism:
-    """The mechanism with its drivers' coordinates free, and its actuators among its loads.
+    """The mechanism with its drivers' coordinates free, its actuators and what its stops do among its loads.
 
     A constant speed would be folded into the programs, so that the coordinate's second derivative were known.
     """
     drivers = {name: _free(each) for name, each in mechanism.drivers.items()}
-    loads: Mapping[str, Load] = {**mechanism.loads, **mechanism.actuators}
-    return replace(mechanism, drivers=drivers, loads=loads, actuators={}, cycle=None)
+    stops = (contact(stop) for stop in mechanism.stops.values())
+    loads: Mapping[str, Load] = {**mechanism.loads, **mechanism.actuators, **{each.name: each for each in stops}}
+    return replace(mechanism, drivers=drivers, loads=loads, actuators={}, run=None, cycle=None)
 
 
 def _free(driver: Driver) -> Driver:

@@ -51,7 +51,7 @@ class FoundStates:
 
     def force_rows(self, names: tuple[str, ...]) -> Floats:
         """Rows of the forces, (names, n)."""
-        return self._run(names, lambda: self.equation.row_program(names))
+        return self._run(names, lambda: self.equation.row_program(names, forces=True))
 
     def values(self, outputs: Mapping[str, Scalar]) -> Floats:
         """Values of the trace of motion and forces, (outputs, n)."""

@@ -53,7 +53,9 @@ def differences(seed: int) -> dict[str, float]:
     found = {"acceleration": _relative(own, expected)}
     given |= {Input("second", name).name: float(value) for name, value in zip(equation.free, own, strict=True)}
     names, forces = joint_forces(owner, motion)
-    return found | {"force": _relative(equation.run(equation.row_program(names), given, 1)[:, 0], forces)}
+    return found | {
+        "force": _relative(equation.run(equation.row_program(names, forces=True), given, 1)[:, 0], forces)
+    }
 
 
 def switched(equation: EquationOfMotion, given: Mapping[str, float]) -> dict[str, float]:

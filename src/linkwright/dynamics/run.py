@@ -1,0 +1,444 @@
+"""Motion under forces over a time: from event to event, with an energy balance as the residual."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from linkwright.core.arguments import require
+from linkwright.core.arrays import Floats
+from linkwright.core.progress import Progress, current_progress
+from linkwright.dynamics.equation import EquationOfMotion
+from linkwright.dynamics.integration import AT_ONCE, Method, Piece, Stepper, StepTooSmall, Watched
+from linkwright.dynamics.result import Happening, Run
+from linkwright.dynamics.system import ZERO, System
+from linkwright.errors import LinkwrightError, RequestError
+from linkwright.kinematics.positions import coordinate_text
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.mechanism.run_conditions import RunConditions, Until
+from linkwright.registry import no_such
+from linkwright.words import Message, _
+from linkwright.words.message import together
+
+#: Below this share of the fastest approach so far a stop is no longer bounced off.
+BOUNCES = 1e-6
+#: Change of the speed from turn to turn below which a run is steady, as share of the speed.
+STEADY = 1e-8
+#: How long a run is without other conditions, and one that waits for rest or steadiness at most, s.
+USUAL, PATIENCE = 1.0, 600.0
+
+
+def run(
+    mechanism: Mechanism,
+    *,
+    duration: float | None = None,
+    turns: float | None = None,
+    until: Until | None = None,
+    at_most: float | None = None,
+    at: float | Mapping[str, float] | None = None,
+    speed: float | Mapping[str, float] | None = None,
+    prescribed: Iterable[str] | None = None,
+    tolerance: float = 1e-10,
+    method: Method = "explicit",
+    progress: Progress | None = None,
+) -> Run:
+    """Motion of a machine under its loads and actuators: drivers' coordinates are free, their laws do not hold.
+
+    Arguments go before the file's section ``run``.
+
+    Args:
+        mechanism: what runs.
+        duration: time of the run, s (default: 1 s).
+        turns: ends after so many turns of the first driver, either way.
+        until: ``steady``: ends where a turn is as the one before; ``rest``: where nothing moves any more.
+        at_most: longest time with ``turns`` or ``until``, s (default: 600 s).
+        at: coordinates where it begins, rad or m, of the first driver or by name; those of the drawing by default.
+        speed: rates with which it begins, rad/s or m/s; rest by default.
+        prescribed: drivers whose laws hold, whatever forces that takes.
+        tolerance: relative error of a step.
+        method: ``explicit`` (DOP853), or ``implicit`` (Radau) for stiff springs and motors.
+
+    Returns:
+        The run; its residual is the work of all forces less the kinetic energy.
+
+    Raises:
+        LinkwrightError: no coordinate is free, nothing has inertia, a position that the machine cannot reach, steps
+            that become too small.
+        StructureError, AssemblyError: as :func:`linkwright.solve_motion`.
+
+    Example:
+        >>> import linkwright as lw
+        >>> found = lw.run(lw.load("gallery:crank_rocker"), duration=0.1)
+        >>> found.end
+        0.1
+    """
+    require(mechanism, Mechanism)
+    asked = mechanism.run or RunConditions()
+    conditions = RunConditions(
+        at={**asked.at, **_by_name(mechanism, at)},
+        speed={**asked.speed, **_by_name(mechanism, speed)},
+        duration=duration if _any(duration, turns, until) else asked.duration,
+        turns=turns if _any(duration, turns, until) else asked.turns,
+        until=until if _any(duration, turns, until) else asked.until,
+        at_most=asked.at_most if at_most is None else at_most,
+        prescribed=asked.prescribed if prescribed is None else tuple(prescribed),
+    )
+    return _Course(mechanism, conditions, tolerance, method, progress or current_progress()).go()
+
+
+def _any(*values: object) -> bool:
+    return any(each is not None for each in values)
+
+
+def _by_name(mechanism: Mechanism, values: float | Mapping[str, float] | None) -> dict[str, float]:
+    if values is None:
+        return {}
+    if not isinstance(values, Mapping):
+        return {next(iter(mechanism.drivers), "driver"): float(values)}
+    for name in values:
+        if name not in mechanism.drivers:
+            raise RequestError(no_such(_("driver"), name, mechanism.drivers))
+    return {name: float(value) for name, value in values.items()}
+
+
+@dataclass(frozen=True)
+class _End:
+    """When a run ends."""
+
+    time: float
+    turns: float | None
+    until: Until | None
+
+    @classmethod
+    def of(cls, asked: RunConditions) -> _End:
+        if asked.turns is None and asked.until is None:
+            return cls(asked.duration or USUAL, None, None)
+        return cls(asked.at_most or PATIENCE, asked.turns, asked.until)
+
+
+class _Course:
+    """One run."""
+
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        conditions: RunConditions,
+        tolerance: float,
+        method: Method,
+        progress: Progress | None,
+    ) -> None:
+        self.mechanism, self.conditions, self.progress = mechanism, conditions, progress
+        self.equation = EquationOfMotion(mechanism, prescribed=conditions.prescribed)
+        if not self.equation.free:
+            raise LinkwrightError(
+                _(
+                    "all drivers of {name!r} are prescribed, so nothing is left that forces could move; leave one "
+                    "out of prescribed",
+                    code="dynamics.nothing_free",
+                    name=mechanism.name,
+                )
+            )
+        self.system = System(self.equation)
+        self.end = _End.of(conditions)
+        self.t, self.y = 0.0, self._start()
+        self.begin = self.y[: len(self.equation.free)].copy()
+        self.fastest: dict[int, float] = {}
+        self.lost = 0.0
+        self.at_once = 0
+        self.pieces: list[Piece] = []
+        self.happened: list[Happening] = []
+        self.sections: list[Floats] = []
+        self.residual, self.largest = 0.0, 0.0
+        self.stepper = Stepper(tolerance, self._absolute(tolerance), method, self._ends)
+
+    # the start ------------------------------------------------------------------------------------------
+    def _start(self) -> Floats:
+        equation = self.equation
+        drawn = dict(zip(equation.names, equation.start.tolist(), strict=True))
+        q = [self.conditions.at.get(name, drawn[name]) for name in equation.free]
+        w = [self.conditions.speed.get(name, 0.0) for name in equation.free]
+        return np.array([*q, *w, 0.0])
+
+    def _absolute(self, tolerance: float) -> Floats:
+        """Absolute errors of a step, from what forces do in the first radian, or the size of the machine."""
+        n, system = len(self.equation.free), self.system
+        out = system.evaluate(system.full, 0.0, self.y).copy()
+        if out[system.place["outcome"]] != 0.0 or not np.isfinite(out[: n + 1]).all():
+            self._refuse_start(out)
+        ways = [1.0 if self.equation.rotary[name] else self.mechanism.size for name in self.equation.free]
+        w = np.abs(self.y[n : 2 * n])
+        rates = np.maximum(w, np.sqrt(np.abs(out[:n]) * ways))
+        rates = np.where(rates > 0.0, rates, 1.0)
+        energy = 0.5 * float(rates @ np.abs(system.mass(out)) @ rates)
+        return tolerance * np.array([*ways, *rates, energy or 1.0])
+
+    def _refuse_start(self, out: Floats) -> None:
+        where = self._where(self.y)
+        if out[self.system.place["outcome"]] != 0.0:
+            raise LinkwrightError(
+                _(
+                    "{name!r} cannot be put together where the run begins, at {where}; begin at another position",
+                    code="dynamics.start_out_of_reach",
+                    name=self.mechanism.name,
+                    where=where,
+                )
+            )
+        raise LinkwrightError(
+            _(
+                "nothing with a mass moves with the input of {name!r} at {where}, so forces give it no acceleration; "
+                "give its links masses and moments of inertia, or begin at another position",
+                code="dynamics.no_inertia",
+                name=self.mechanism.name,
+                where=where,
+            )
+        )
+
+    def _where(self, y: Floats) -> str:
+        """The free coordinates in words."""
+        rotary = self.equation.rotary
+        pairs = zip(self.equation.free, y.tolist(), strict=False)
+        return together([coordinate_text(name, value, rotary[name]) for name, value in pairs])
+
+    # the ends -------------------------------------------------------------------------------------------
+    def _ends(self, t: float, y: Floats) -> Floats:
+        """Positive until the turns are made, or the next full turn is complete."""
+        if self.end.turns is not None:
+            return np.array([2.0 * math.pi * self.end.turns - abs(y[0] - self.begin[0])])
+        if self.end.until == "steady":
+            return np.array([2.0 * math.pi * (len(self.sections) + 1) - abs(y[0] - self.begin[0])])
+        return np.empty(0)
+
+    def _section(self) -> bool:
+        """Whether the turn that ends here is as the one before."""
+        n = len(self.equation.free)
+        self.sections.append(self.y[n : 2 * n].copy())
+        if len(self.sections) < 2:
+            return False
+        last, before = self.sections[-1], self.sections[-2]
+        return bool(np.abs(last - before).max() <= STEADY * np.abs(last).max())
+
+    def _resting(self) -> bool:
+        """Whether all is held, and nothing is going to switch with the time."""
+        system, n = self.system, len(self.equation.free)
+        if not system.holding.constrained or np.abs(self.y[n : 2 * n]).max() > 0.0:
+            return False
+        return not any(self._pending(k) for k in range(len(system.surfaces)))
+
+    def _pending(self, index: int) -> bool:
+        """Whether a surface goes by the time alone and is still ahead."""
+        system = self.system
+        surface = system.surfaces[index]
+        if surface.by_rate:
+            return False
+        out = system.evaluate(system.full, self.t, self.y)
+        rate = surface.members[0][1] * out[system.place[f"rate:{surface.number}"]]
+        return bool(system.holding.sides[index] * rate < 0.0)
+
+    # the way --------------------------------------------------------------------------------------------
+    def go(self) -> Run:
+        """The run; what was found stays where it is interrupted."""
+        note: Message | None = None
+        try:
+            self._first_holding()
+            while self.t < self.end.time and self._piece():
+                pass
+        except KeyboardInterrupt:
+            note = _("interrupted at {time:.6g} s", code="dynamics.interrupted", time=self.t)
+        if self.end.until and self.t >= self.end.time:
+            note = _(
+                "not {state} after {time:.6g} s; give at_most a longer time",
+                code="dynamics.not_until",
+                state=_("steady") if self.end.until == "steady" else _("at rest"),
+                time=self.t,
+            )
+        return Run(
+            self.mechanism, self.equation, tuple(self.pieces), tuple(self.happened), self.residual, self.largest, note
+        )
+
+    def _first_holding(self) -> None:
+        system = self.system
+        out = system.evaluate(system.full, self.t, self.y).copy()
+        self._set_sides(out, range(len(system.surfaces)))
+        self._decide(self._touching(out))
+        self.kinetic = self._kinetic()
+
+    def _kinetic(self) -> float:
+        system = self.system
+        return float(system.evaluate(system.full, self.t, self.y)[system.place["kinetic"]])
+
+    def _set_sides(self, out: Floats, indices: Iterable[int]) -> None:
+        """The sides on which surfaces are, or go to where they are zero."""
+        system = self.system
+        gaps, holding = system.gaps(out), system.holding.copy()
+        for index in indices:
+            surface = system.surfaces[index]
+            rate = surface.members[0][1] * out[system.place[f"rate:{surface.number}"]]
+            value = gaps[index] if gaps[index] != 0.0 else rate
+            holding.sides[index] = 1.0 if value >= 0.0 else -1.0
+        system.hold(holding)
+
+    def _touching(self, out: Floats) -> list[int]:
+        """Stops that are touched and neither left nor run into."""
+        system, found = self.system, []
+        for number, name in enumerate(system.stops):
+            gap, rate = (out[system.place[f"{kind}:{name}"]] for kind in ("stop", "stop_rate"))
+            if gap <= ZERO * self.mechanism.size and rate <= 0.0:
+                found.append(number)
+        return found
+
+    def _decide(self, touch: Iterable[int]) -> None:
+        """What sticks, slips and touches from here on."""
+        self.system.decide(self.t, self.y, touch)
+
+    def _piece(self) -> bool:
+        """One piece, and what happens at its end; whether the run goes on."""
+        happens: list[Watched] = []
+        begin, since = len(self.pieces), self.t
+        try:
+            for piece, t, y, now in self.stepper.piece(self.system, self.t, self.y, self.end.time):
+                self.pieces[begin:] = [piece]
+                self.t, self.y, happens = t, y, now
+                self._balance()
+                if self.progress is not None:
+                    self.progress(int(1e6 * min(t / self.end.time, 1.0)), 1_000_000)
+        except StepTooSmall:
+            self._refuse_here()
+        if not happens:
+            return False
+        self._repeated(since)
+        return self._happen(happens)
+
+    def _repeated(self, before: float) -> None:
+        """Refuses what happens again and again at one time, that of the event ``before``, s."""
+        self.at_once = self.at_once + 1 if self.t <= before + 1e-14 * max(1.0, self.t) else 0
+        if self.at_once > AT_ONCE:
+            raise LinkwrightError(
+                _(
+                    "forces switch to and fro without end at {time:.6g} s, at {where}; something pushes across the "
+                    "place where it changes its sign",
+                    code="dynamics.chatter",
+                    time=self.t,
+                    where=self._where(self.y),
+                )
+            )
+
+    def _refuse_here(self) -> None:
+        raise LinkwrightError(
+            _(
+                "the motion cannot go on after {time:.6g} s, at {where}: the machine comes to where it cannot be put "
+                "together, or its steps become too small",
+                code="dynamics.no_further",
+                time=self.t,
+                where=self._where(self.y),
+            )
+        )
+
+    def _balance(self) -> None:
+        """The energy that is missing, and the largest rates."""
+        n = len(self.equation.free)
+        self.system.pace = np.maximum(self.system.pace, np.abs(self.y[n : 2 * n]))
+        kinetic = self._kinetic()
+        work = self.y[-1]
+        self.largest = max(self.largest, kinetic, abs(float(work)))
+        self.residual = max(self.residual, abs(kinetic - self.kinetic + self.lost - float(work)))
+
+    # events ---------------------------------------------------------------------------------------------
+    def _happen(self, happens: list[Watched]) -> bool:
+        system = self.system
+        touch = list(system.holding.touch)
+        kinds = {each.kind for each in happens}
+        for each in happens:
+            if each.kind == "end" and not self._turned():
+                return False
+        if "stop" in kinds:
+            touch = self._impact([each.number for each in happens if each.kind == "stop"], touch)
+        self._cross([each.number for each in happens if each.kind == "surface"])
+        for each in happens:
+            if each.kind == "leave":
+                self._note("leave", system.stops[system.holding.touch[each.number]])
+        before = system.holding.copy()
+        self._decide(touch)
+        if "slip" in kinds or len(system.holding.stick) != len(before.stick):
+            self._note("slips" if len(system.holding.stick) < len(before.stick) or "slip" in kinds else "sticks", "")
+        if self.end.until == "rest" and self._resting():
+            self._note("rest", "")
+            self.pieces.append(Piece.resting(system, self.t, self.y))
+            return False
+        return True
+
+    def _turned(self) -> bool:
+        """What happens at the end of a turn; whether the run goes on."""
+        if self.end.turns is not None:
+            self._note("turns", "")
+            return False
+        if self._section():
+            self._note("steady", "")
+            return False
+        return True
+
+    def _note(self, kind: str, name: str, value: float = 0.0) -> None:
+        self.happened.append(Happening(self.t, kind, name, value, tuple(self.y[: len(self.equation.free)].tolist())))
+
+    def _cross(self, crossed: list[int]) -> None:
+        """Lets surfaces go over: those by rates that are zero exactly to zero, of which forces tell the rest, the
+        others to their other side."""
+        system, n = self.system, len(self.equation.free)
+        out = system.evaluate(system.full, self.t, self.y).copy()
+        zero, holding = system.zero(out, self.y), system.holding.copy()
+        for index in crossed:
+            if index not in zero:
+                holding.sides[index] *= -1.0
+                if not system.surfaces[index].by_rate:
+                    self._note("switch", str(index))
+        system.hold(holding)
+        still = [k for k in crossed if k in zero]
+        if still:
+            rates = np.array([system.gap_by(out, system.surfaces[k].number) for k in still])
+            open_by = [out[system.place[f"gap:{system.surfaces[k].number}"]] for k in still]
+            self.y[n : 2 * n] -= np.linalg.lstsq(rates, open_by, rcond=None)[0]
+            if n == 1:
+                self.y[n] = 0.0
+                self._note("reversal", "")
+        gaps = system.gaps(out)
+        near = [
+            k
+            for k, each in enumerate(system.surfaces)
+            if not each.by_rate and k not in crossed and abs(gaps[k]) <= 1e-12 * self._scale(k)
+        ]
+        self._set_sides(system.evaluate(system.full, self.t, self.y).copy(), near)
+
+    def _scale(self, index: int) -> float:
+        return self.stepper.seen.get(("surface", index), 0.0)
+
+    def _impact(self, hit: list[int], touch: list[int]) -> list[int]:
+        """Newton's impacts at stops, one after the other until none is run into; the stops that are touched then."""
+        system, n = self.system, len(self.equation.free)
+        stops = [self.equation.mechanism.stops[name] for name in system.stops]
+        before = self._kinetic()
+        held = set(touch)
+        for _round in range(AT_ONCE):
+            out = system.evaluate(system.full, self.t, self.y).copy()
+            rates = {k: float(out[system.place[f"stop_rate:{system.stops[k]}"]]) for k in {*hit, *held}}
+            number = min(rates, key=rates.__getitem__)
+            rate = rates[number]
+            if rate >= -1e-14 * self.fastest.get(number, 0.0):
+                break
+            self.fastest[number] = max(self.fastest.get(number, 0.0), -rate)
+            by = system.stop_by(out, number)
+            turn = np.linalg.solve(system.mass(out), by)
+            rebound = stops[number].restitution if number not in held else 0.0
+            if -rate * rebound <= BOUNCES * self.fastest[number]:
+                rebound = 0.0
+                held.add(number)
+            impulse = -(1.0 + rebound) * rate / float(by @ turn)
+            self.y[n : 2 * n] += turn * impulse
+            self._note("impact", system.stops[number], impulse)
+        self.lost += before - self._kinetic()
+        self._set_sides(
+            system.evaluate(system.full, self.t, self.y).copy(),
+            [k for k, each in enumerate(system.surfaces) if each.by_rate],
+        )
+        return sorted(held)

@@ -1,0 +1,326 @@
+"""A machine between two events: its right-hand side with switches held, what sticks, and which stops touch."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.dynamics.complementarity import shares
+from linkwright.dynamics.equation import EquationOfMotion
+from linkwright.dynamics.right_side import RightSide
+from linkwright.dynamics.stops import contact_name
+from linkwright.dynamics.switches import gap_name, switch_name
+
+#: A rate is zero below this share of the largest one seen; a jump of accelerations, below this share of their size.
+ZERO, NO_JUMP = 1e-9, 1e-12
+#: Newton's steps of groups without closed form at a position, and the change that ends them.
+CLOSING_STEPS, CLOSED = 24, 1e-13
+
+
+@dataclass(frozen=True)
+class Surface:
+    """Where comparisons go over together: the switches by number, with 1 for those that hold above, -1 below.
+
+    ``by_rate``: its gap goes by rates, so that forces decide on which side it goes on.
+    """
+
+    members: tuple[tuple[int, float], ...]
+    by_rate: bool
+
+    @property
+    def number(self) -> int:
+        """The switch whose gap is that of the surface, but for its sign."""
+        return self.members[0][0]
+
+
+@dataclass
+class Holding:
+    """What holds between two events: ``sides`` (surfaces,) 1 above or -1 below; sets of surfaces that ``stick``
+    together, with the sides of the others where the first is above; stops that ``touch``."""
+
+    sides: Floats
+    stick: list[tuple[tuple[int, float], ...]] = field(default_factory=list)
+    touch: list[int] = field(default_factory=list)
+
+    @property
+    def constrained(self) -> bool:
+        """Whether forces follow from what holds."""
+        return bool(self.stick or self.touch)
+
+    def copy(self) -> Holding:
+        """The same, to be changed."""
+        return Holding(self.sides.copy(), list(self.stick), list(self.touch))
+
+
+class System:
+    """The right-hand side of an equation of motion: y = (free coordinates, their rates, work), (2 n + 1,)."""
+
+    def __init__(self, equation: EquationOfMotion) -> None:
+        self.equation = equation
+        self.free, self.stops = equation.free, list(equation.mechanism.stops)
+        self.surfaces = _surfaces(equation)
+        names = [*(f"a:{name}" for name in self.free), "power"]
+        carried = list(equation.states)
+        names += [f"next:{name}" for name in carried]
+        count = len(equation.switches.lines)
+        more = ["kinetic", "outcome"]
+        more += [gap_name(k) for k in range(count)] + [f"rate:{k}" for k in range(count)]
+        more += [f"by:{k}:{name}" for k in range(count) for name in self.free]
+        more += [f"{kind}:{stop}" for kind in ("stop", "stop_rate", "stop_second") for stop in self.stops]
+        more += [f"stop_by:{stop}:{name}" for stop in self.stops for name in self.free]
+        more += [f"M:{a}:{b}" for a in self.free for b in self.free]
+        more += [f"quality:{group}" for group in equation.groups]
+        first = [f"{kind}:{name}" for kind in ("q", "w") for name in self.free]
+        self.slim, self.full = (
+            RightSide(equation.program(wanted), equation.numbers, tables=equation.tables, first=[*first, "time"])
+            for wanted in (names, names + more)
+        )
+        self.place = {name: k for k, name in enumerate(self.full.program.output_names)}
+        self._states = {
+            side: np.array([side.inputs[name] for name in carried if name in side.inputs], dtype=np.intp)
+            for side in (self.slim, self.full)
+        }
+        self._switches = {side: self._rows(side) for side in (self.slim, self.full)}
+        self._fixed = [name for name in equation.names if name not in self.free]
+        self.holding = Holding(np.ones(len(self.surfaces)))
+        self.missed = 0
+        self.pace = np.zeros(len(self.free))
+        self.set_states(equation.states)
+
+    def __hash__(self) -> int:
+        return id(self)
+
+    @staticmethod
+    def _rows(side: RightSide) -> dict[int, int]:
+        names = {switch_name(k): k for k in range(len(side.inputs))}
+        return {names[name]: row for name, row in side.inputs.items() if name in names}
+
+    # inputs ---------------------------------------------------------------------------------------------
+    def set_states(self, states: dict[str, float]) -> None:
+        """Where Newton's steps of groups without closed form begin."""
+        for side in (self.slim, self.full):
+            for name, value in states.items():
+                if name in side.inputs:
+                    side.x[side.inputs[name]] = value
+
+    def hold(self, holding: Holding) -> None:
+        """What holds from here on."""
+        self.holding = holding
+        self._set_sides(holding.sides)
+
+    def _set_sides(self, sides: Floats) -> None:
+        for surface, above in zip(self.surfaces, sides.tolist(), strict=True):
+            for number, sign in surface.members:
+                on = 1.0 if above * sign > 0.0 else 0.0
+                for side in (self.slim, self.full):
+                    row = self._switches[side].get(number)
+                    if row is not None:
+                        side.x[row] = on
+
+    def evaluate(self, side: RightSide, t: float, y: Floats) -> Floats:
+        """Outputs at a time and a state, in place."""
+        n, x = len(self.free), side.x
+        x[: 2 * n] = y[: 2 * n]
+        x[2 * n] = t
+        if self._fixed:
+            self._prescribe(side, t)
+        side.call()
+        if len(self._states[side]):
+            self._close(side)
+        return side.out
+
+    def _prescribe(self, side: RightSide, t: float) -> None:
+        """Coordinates and rates of the inputs that have laws."""
+        for name in self._fixed:
+            course = self.equation.source.drivers[name].law.coordinate(np.array([t]))
+            for kind, value in zip(("q", "w", "second"), course, strict=True):
+                row = side.inputs.get(f"{kind}:{name}")
+                if row is not None:
+                    side.x[row] = float(value[0])
+
+    def _close(self, side: RightSide) -> None:
+        """Goes on with Newton's steps until the groups without closed form are closed."""
+        rows, n = self._states[side], len(self.free) + 1
+        found = side.out[n : n + len(rows)]
+        for _step in range(CLOSING_STEPS):
+            change = np.abs(found - side.x[rows]).max()
+            side.x[rows] = found
+            if change <= CLOSED:
+                return
+            side.call()
+        self.missed += 1
+        side.out[:n] = np.nan
+
+    def chain(self, t: float, y: Floats) -> Floats:
+        """Chain coordinates of the groups without closed form at a state, in the order of the equation's states."""
+        names = list(self.equation.states)
+        if not names:
+            return np.empty(0)
+        self.evaluate(self.full, t, y)
+        begin = len(self.free) + 1
+        return self.full.out[begin : begin + len(names)].copy()
+
+    # the right-hand side --------------------------------------------------------------------------------
+    def __call__(self, t: float, y: Floats) -> Floats:
+        """dy/dt."""
+        n = len(self.free)
+        found = np.empty(2 * n + 1)
+        found[:n] = y[n : 2 * n]
+        if self.holding.constrained:
+            found[n:] = self.constrained(t, y)[0]
+        else:
+            found[n:] = self.evaluate(self.slim, t, y)[: n + 1]
+        return found
+
+    def constrained(self, t: float, y: Floats) -> tuple[Floats, Floats]:
+        """Accelerations and power where something sticks or touches; the shares of what does that."""
+        base, first, gains, turns = self._answers(t, y, self.holding.stick, self.holding.touch)
+        held: Floats = np.asarray(np.linalg.lstsq(gains, -first, rcond=None)[0], dtype=np.float64)
+        return np.asarray(base + held @ turns), held
+
+    def _answers(
+        self, t: float, y: Floats, stick: Sequence[tuple[tuple[int, float], ...]], touch: Sequence[int]
+    ) -> tuple[Floats, Floats, Floats, Floats]:
+        """Accelerations and power (n + 1,) with all that may stick on the side below and no force at stops; then the
+        rates (k,) of what must stay zero, what unit shares change of them (k, k), and of the former (k, n + 1)."""
+        n, sides = len(self.free), self.holding.sides.copy()
+        for group in stick:
+            for index, sign in group:
+                sides[index] = -sign
+        self._set_sides(sides)
+        out = self.evaluate(self.full, t, y).copy()
+        base = out[: n + 1]
+        changes, rows, first = [], [], []
+        for group in stick:
+            other = sides.copy()
+            for index, sign in group:
+                other[index] = sign
+            self._set_sides(other)
+            changes.append(self.evaluate(self.full, t, y)[: n + 1] - base)
+            index, sign = group[0]
+            surface = self.surfaces[index]
+            rows.append(surface.members[0][1] * sign * self.gap_by(out, surface.number))
+            first.append(surface.members[0][1] * sign * out[self.place[f"rate:{surface.number}"]])
+        self._set_sides(sides)
+        for number in touch:
+            row = self.full.inputs[contact_name(self.stops[number])]
+            self.full.x[row] = 1.0
+            changes.append(self.evaluate(self.full, t, y)[: n + 1] - base)
+            self.full.x[row] = 0.0
+            rows.append(self.stop_by(out, number))
+            first.append(out[self.place[f"stop_second:{self.stops[number]}"]])
+        self._set_sides(self.holding.sides)
+        turns = np.array(changes).reshape(-1, n + 1)
+        return base, np.array(first), np.array(rows).reshape(-1, n) @ turns[:, :n].T, turns
+
+    def gap_by(self, out: Floats, number: int) -> Floats:
+        """Derivatives of a gap by the free rates, (n,)."""
+        begin = self.place[f"by:{number}:{self.free[0]}"]
+        return out[begin : begin + len(self.free)]
+
+    def stop_by(self, out: Floats, number: int) -> Floats:
+        """Derivatives of the rate of a stop's gap by the free rates, (n,)."""
+        begin = self.place[f"stop_by:{self.stops[number]}:{self.free[0]}"]
+        return out[begin : begin + len(self.free)]
+
+    def mass(self, out: Floats) -> Floats:
+        """M of the free coordinates, (n, n)."""
+        n, begin = len(self.free), self.place[f"M:{self.free[0]}:{self.free[0]}"]
+        return out[begin : begin + n * n].reshape(n, n)
+
+    # deciding -------------------------------------------------------------------------------------------
+    def gaps(self, out: Floats) -> Floats:
+        """Gaps of the surfaces (surfaces,), positive above."""
+        return np.array([s.members[0][1] * out[self.place[gap_name(s.number)]] for s in self.surfaces])
+
+    def zero(self, out: Floats, y: Floats) -> list[int]:
+        """Surfaces by rates that are zero because the machine's own rates are, not because it stands where they do
+        not move them; ``pace`` (n,): the largest rates so far."""
+        n, gaps, found = len(self.free), self.gaps(out), []
+        pace = ZERO * max(float(np.abs(self.pace).max()), float(np.abs(y[n : 2 * n]).max()))
+        for index, surface in enumerate(self.surfaces):
+            if surface.by_rate:
+                size = float(np.linalg.norm(self.gap_by(out, surface.number)))
+                if size > 0.0 and abs(gaps[index]) <= pace * size:
+                    found.append(index)
+        return found
+
+    def decide(self, t: float, y: Floats, touch: Iterable[int]) -> Holding:
+        """What holds from a time on; stops that ``touch`` are neither left nor run into.
+
+        Forces that do not jump let a surface by rates that is zero go over as its rate tells; of the others it is
+        found which stick.
+        """
+        holding = Holding(self.holding.sides.copy())
+        self.hold(holding)
+        groups = self._together(t, y, self.zero(self.evaluate(self.full, t, y).copy(), y))
+        touching = list(touch)
+        if not groups and not touching:
+            return holding
+        _, first, gains, _ = self._answers(t, y, groups, touching)
+        most = np.array([1.0] * len(groups) + [np.inf] * len(touching))
+        found = shares(first, gains, most)
+        for group, share in zip(groups, found.tolist(), strict=False):
+            if 0.0 < share < 1.0:
+                holding.stick.append(group)
+                continue
+            for index, sign in group:
+                holding.sides[index] = sign if share == 1.0 else -sign
+        holding.touch = [stop for stop, force in zip(touching, found[len(groups) :], strict=True) if force > 0.0]
+        self.hold(holding)
+        return holding
+
+    def _together(self, t: float, y: Floats, zero: list[int]) -> list[tuple[tuple[int, float], ...]]:
+        """Surfaces whose rates are multiples of one another, as they stick and slip together; those across which no
+        force jumps are set to the side to which they go."""
+        n = len(self.free)
+        out = self.evaluate(self.full, t, y).copy()
+        found: list[tuple[list[tuple[int, float]], Floats]] = []
+        for index in zero:
+            surface = self.surfaces[index]
+            by = surface.members[0][1] * self.gap_by(out, surface.number)
+            size = float(np.linalg.norm(by))
+            jump, scale = self._jump(t, y, index)
+            if size == 0.0 or jump <= NO_JUMP * scale:
+                rate = surface.members[0][1] * out[self.place[f"rate:{surface.number}"]]
+                self.holding.sides[index] = 1.0 if rate >= 0.0 else -1.0
+                self._set_sides(self.holding.sides)
+                continue
+            unit = by / size
+            for group, other in found:
+                along = float(unit @ other)
+                if abs(abs(along) - 1.0) <= 1e-12 or n == 1:
+                    group.append((index, 1.0 if along > 0.0 else -1.0))
+                    break
+            else:
+                found.append(([(index, 1.0)], unit))
+        return [tuple(group) for group, _unit in found]
+
+    def _jump(self, t: float, y: Floats, index: int) -> tuple[float, float]:
+        """How far the accelerations jump across a surface, and how large they are."""
+        n, sides = len(self.free), self.holding.sides.copy()
+        values = []
+        for side in (-1.0, 1.0):
+            sides[index] = side
+            self._set_sides(sides)
+            values.append(self.evaluate(self.full, t, y)[:n].copy())
+        self._set_sides(self.holding.sides)
+        return float(np.abs(values[1] - values[0]).max()), float(np.abs(values).max())
+
+
+def _surfaces(equation: EquationOfMotion) -> list[Surface]:
+    """The switches, those together whose comparisons differ by sense alone."""
+    lines = equation.switches.trace.lines
+    rates = {f"w:{name}" for name in equation.free}
+    found: dict[tuple[int, ...], list[tuple[int, float]]] = {}
+    for number, line in enumerate(equation.switches.lines):
+        low, high = lines[line][1:]
+        found.setdefault((min(low, high), max(low, high)), []).append((number, 1.0 if low < high else -1.0))
+    surfaces = []
+    for members in found.values():
+        gap = equation.program([gap_name(members[0][0])])
+        surfaces.append(Surface(tuple(members), not rates.isdisjoint(gap.positions)))
+    return surfaces

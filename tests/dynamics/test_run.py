@@ -1,0 +1,88 @@
+"""Runs under forces against closed forms."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import linkwright as lw
+
+BLOCK = """
+format: 1
+frame: {{points: {{O: [0 m, 0 m]}}}}
+links: {{block: {{points: [B], mass: 2 kg}}}}
+joints:
+  guide: {{kind: prismatic, guide: frame, through: O, direction: {direction}, block: block, at: B{friction}}}
+driver: {{slide: guide, speed: 1 m/s}}
+cycle: {{duration: 1 s}}
+gravity: [0, -10 m/s²]
+"""
+
+
+def block(direction: str, friction: str = "", more: str = "") -> lw.Mechanism:
+    """A block of 2 kg on a straight guide."""
+    return lw.loads(BLOCK.format(direction=direction, friction=friction) + more)
+
+
+def test_a_falling_block_obeys_galileo() -> None:
+    run = lw.run(block("90 deg"), duration=2.0, at=30.0, speed=3.0)
+    assert run.end_state["driver"] == pytest.approx((30.0 + 6.0 - 20.0, -17.0), rel=1e-12)
+    assert run.energy_residual < 1e-12
+
+
+def test_a_block_that_rubs_comes_to_rest_and_stays() -> None:
+    """On a level guide v²/(2 μ g), after v/(μ g)."""
+    run = lw.run(block("0 deg", ", friction: 0.3"), until="rest", speed=6.0)
+    assert run.end == pytest.approx(6.0 / 3.0, rel=1e-10)
+    assert run.end_state["driver"][0] == pytest.approx(36.0 / 6.0, rel=1e-10)
+    assert run.end_state["driver"][1] == pytest.approx(0.0, abs=1e-12)
+    assert [each.kind for each in run.events][-1] == "rest"
+
+
+@pytest.mark.parametrize(("slope", "stays"), [(16.0, True), (17.5, False)])
+def test_friction_holds_a_block_on_a_slope_up_to_its_angle(slope: float, stays: bool) -> None:
+    """atan 0.3 = 16.7°: below it the block comes to rest, above it slides back at g (sin - μ cos)."""
+    angle = math.radians(slope)
+    run = lw.run(block(f"{slope} deg", ", friction: 0.3"), duration=3.0, speed=2.0)
+    up = 2.0 / (10.0 * (math.sin(angle) + 0.3 * math.cos(angle)))
+    down = 10.0 * (math.sin(angle) - 0.3 * math.cos(angle))
+    q, w = run.end_state["driver"]
+    assert w == pytest.approx(0.0 if stays else -down * (3.0 - up), abs=1e-9)
+    assert q == pytest.approx(1.0 * up - (0.0 if stays else 0.5 * down * (3.0 - up) ** 2), rel=1e-9)
+    pressed = run.joint_forces(times=[0.1, 2.9]).reaction("guide", on="block")
+    assert np.hypot(*pressed.T) == pytest.approx([20.0 * math.cos(angle)] * 2, rel=1e-9)
+
+
+def test_a_bouncing_ball_loses_the_square_of_the_restitution() -> None:
+    """Flights of e^k √(8 h/g), together √(2 h/g) (1 + e)/(1 - e); then it lies still and presses with its weight."""
+    stops = "stops: {floor: {of: B.y, at: 0 m, side: below, restitution: 0.5}}\n"
+    run = lw.run(block("90 deg", more=stops), duration=2.0, at=0.8)
+    impacts = [each.time for each in run.events if each.kind == "impact"]
+    first = math.sqrt(2.0 * 0.8 / 10.0)
+    assert impacts[0] == pytest.approx(first, rel=1e-12)
+    assert np.diff(impacts)[:6] == pytest.approx([2.0 * first * 0.5**k for k in range(1, 7)], rel=1e-9)
+    assert impacts[-1] == pytest.approx(first * 3.0, rel=1e-5)
+    assert run.end_state["driver"] == pytest.approx((0.0, 0.0), abs=1e-9)
+    assert run.events[0].value == pytest.approx(1.5 * 2.0 * math.sqrt(2.0 * 10.0 * 0.8), rel=1e-10)
+    assert run.energy_residual < 1e-9
+
+
+def test_a_rod_swings_with_the_period_of_the_elliptic_integral() -> None:
+    """T = 4 √(J/(m g r)) K(sin² φ/2)."""
+    from scipy.special import ellipk
+
+    text = """
+format: 1
+frame: {points: {O: [0 m, 0 m]}}
+links: {rod: {points: [O, A], length: 1 m, mass: 3 kg, inertia: 0.25 kg·m²}}
+driver: {turn: rod, about: O, speed: 1 rad/s}
+gravity: [0, -9.81 m/s²]
+"""
+    amplitude, quarter = math.radians(120.0), math.sqrt((0.25 + 3.0 * 0.25) / (3.0 * 9.81 * 0.5))
+    period = 4.0 * quarter * ellipk(math.sin(amplitude / 2.0) ** 2)
+    start = -math.pi / 2.0 + amplitude
+    run = lw.run(lw.loads(text), duration=3.0 * period, at=start, tolerance=1e-13)
+    assert run.end_state["driver"] == pytest.approx((start, 0.0), abs=1e-10)
+    assert run.energy_residual < 1e-11
