@@ -51,6 +51,23 @@ def one_input(text: str | None, mechanism: Mechanism) -> dict[str, float] | None
     return {name: only(values, text, "--at") for name, values in inputs(text, mechanism).items()}
 
 
+def one_speed(text: str | None, mechanism: Mechanism) -> dict[str, float] | None:
+    """Rates by driver of ``--speed``: of the first driver, or ``NAME=rate; NAME=rate``; raises UsageError."""
+    if text is None:
+        return None
+    drivers = rotary(mechanism)
+    found: dict[str, float] = {}
+    for part in text.split(";"):
+        name, equals, value = part.rpartition("=")
+        name = name.strip() if equals else next(iter(drivers), "")
+        if name not in drivers:
+            cause = did_you_mean(_('there is no driver "{name}"', code="solve.no_driver", name=name), name, drivers)
+            raise UsageError(_("{name}: {cause}", name="--speed", cause=cause))
+        dimension = "angular_velocity" if drivers[name] else "velocity"
+        found[name] = only(quantities(value, dimension, "--speed"), value, "--speed")
+    return found
+
+
 def one_place(text: str | None, mechanism: Mechanism, dimension: str, option: str) -> float | None:
     """One time or coordinate of the first driver."""
     return None if text is None else only(places(text, mechanism, dimension, option), text, option)

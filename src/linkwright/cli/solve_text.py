@@ -135,7 +135,8 @@ def efforts(solved: Solved, columns: Mapping[str, Column]) -> list[Column]:
     """What the drivers must supply."""
     if solved.forces is None:
         return []
-    names = [f"{name}.effort" for name in solved.motion.mechanism.drivers]
+    drivers = solved.motion.mechanism.drivers
+    names = [f"{name}.effort" for name, driver in drivers.items() if driver.law.prescribed]
     return [replace(columns[name], scale=solved.force_scale) for name in names]
 
 
@@ -315,6 +316,8 @@ def _efforts(solved: Solved, forces: Forces, translate: Translate, *, degrees: b
     """Largest, smallest and mean effort of every driver; the mean over a closed cycle counts its end once."""
     rows = []
     for key, driver in forces.mechanism.drivers.items():
+        if not driver.law.prescribed:
+            continue
         values = forces.driver_effort(key)
         name = key if len(forces.mechanism.drivers) > 1 else translate(_("driver"))
         if not np.isfinite(values).any():
@@ -351,7 +354,7 @@ def _checks(solved: Solved, translate: Translate) -> list[str]:
         return []
     power = largest(forces.power_residual)
     lines = []
-    if forces.mechanism.drivers:
+    if any(driver.law.prescribed for driver in forces.mechanism.drivers.values()):
         lines.append(
             translate(
                 _(

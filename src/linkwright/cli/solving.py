@@ -181,7 +181,7 @@ def _motion(mechanism: Mechanism, options: Options) -> tuple[Motion, Indices, in
 
 def leading(solved: Solved, columns: Mapping[str, Column]) -> list[Column]:
     """Time where it matters, and the drivers' coordinates."""
-    first = [] if solved.motion.mechanism.steady else [columns["time"]]
+    first = [] if placed_by_inputs(solved.motion) else [columns["time"]]
     return first + [columns[name] for name in solved.motion.mechanism.drivers]
 
 
@@ -302,7 +302,7 @@ def closeness(motion: Motion, language: str) -> list[str]:
 
 def input_text(motion: Motion, place: int, *, degrees: bool) -> str:
     """Where a position is: the drivers' coordinates, or the time where drivers follow laws of their own."""
-    if not motion.mechanism.steady:
+    if not placed_by_inputs(motion):
         return f"t = {_short(motion.time[place])} s"
     texts = []
     for name, values in motion.inputs.items():
@@ -311,6 +311,12 @@ def input_text(motion: Motion, place: int, *, degrees: bool) -> str:
         unit = "°" if in_degrees else " rad" if turn else " m"
         texts.append(f"{_short(np.degrees(values[place]) if in_degrees else values[place])}{unit}")
     return ", ".join(texts)
+
+
+def placed_by_inputs(motion: Motion) -> bool:
+    """Whether inputs say where a position is: with constant speeds, or where the machine is let go from it."""
+    free = not any(driver.law.prescribed for driver in motion.mechanism.drivers.values())
+    return motion.mechanism.steady or (free and bool(np.ptp(motion.time) == 0.0) and bool(motion.inputs))
 
 
 def _short(value: float) -> str:

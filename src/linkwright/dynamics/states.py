@@ -31,7 +31,7 @@ class FoundStates:
 
     equation: EquationOfMotion
     positions: Positions
-    held: Sequence[tuple[float, Given]]
+    held: Sequence[tuple[Floats | float, Given]]
     states: Mapping[str, Floats] = field(default_factory=dict)
     modes: Mapping[str, Floats] = field(default_factory=dict)
     _programs: dict[tuple[str, ...], Program] = field(default_factory=dict, init=False, repr=False)
@@ -68,6 +68,25 @@ class FoundStates:
             for share, switches in self.held
         ]
         return np.asarray(sum(found))
+
+
+def together(found: Sequence[FoundStates]) -> FoundStates:
+    """States of one equation, one after the other."""
+    first = found[0]
+    coordinates = {
+        name: tuple(np.concatenate([each.positions.coordinates[name][k] for each in found]) for k in range(3))
+        for name in first.positions.coordinates
+    }
+    time = np.concatenate([each.positions.time for each in found])
+    positions = Positions(time, coordinates, first.positions.rotary)  # type: ignore[arg-type]
+    held = []
+    for way in range(max(len(each.held) for each in found)):
+        ways = [(each.held[way], 1.0) if way < len(each.held) else (each.held[0], 0.0) for each in found]
+        shares = np.array([share * counts for (share, _switches), counts in ways])
+        switches = {name: np.array([own[name] for (_share, own), _counts in ways]) for name in first.held[0][1]}
+        held.append((shares, switches))
+    states = {name: np.concatenate([each.states[name] for each in found]) for name in first.states}
+    return FoundStates(first.equation, positions, held, states)
 
 
 @dataclass(eq=False, repr=False)

@@ -12,7 +12,7 @@ from linkwright.core.outputs import Output
 from linkwright.dynamics.release import Release
 from linkwright.dynamics.states import FoundForces, FoundMotion, FoundStates, motion_at
 from linkwright.equations.steps import Equation, Item, Step
-from linkwright.equations.terms import NOWHERE, ONE, ZERO, Pair, Term, symbol, total
+from linkwright.equations.terms import NOWHERE, ZERO, Pair, Term, symbol, total
 from linkwright.errors import require_language, speaker
 from linkwright.kinematics.positions import Positions
 from linkwright.words import Message, Translate, _
@@ -20,59 +20,8 @@ from linkwright.worked_solutions.applied_forces import Known, KnownForces
 from linkwright.worked_solutions.rates import System, named_points, solve
 from linkwright.worked_solutions.reactions import Reactions
 from linkwright.worked_solutions.solution import Kinematics, Worked, legend
-from linkwright.worked_solutions.symbols import PointState, Slide, SymbolTable
-
-
-class MarkedTable(SymbolTable):
-    """Symbols of a motion that is not the mechanism's own: other letters for what moves.
-
-    ``turning``, ``moving``: letters of rates of links and of points; ``mark``: behind their indices; ``rates``: the
-    terms of a driver's rates, where they are not symbols.
-    """
-
-    def __init__(self, motion: FoundMotion, translate: Translate, letters: Mapping[str, str], mark: str = "") -> None:
-        super().__init__(motion, 0, translate)
-        self.letters = letters
-        self.mark = mark
-
-    def _rate(self, link: str, letter: str, name: str) -> Term:
-        found = super()._rate(link, letter, name)
-        return (
-            found if found.is_zero else symbol(f"{self.letters[letter]}{self.numbers[link]}{self.mark}", found.amount)
-        )
-
-    def _components(self, letter: str, label: str, x: float, y: float) -> Pair:
-        return super()._components(self.letters[letter], f"{label}{self.mark}", x, y)
-
-    def slide(self, joint: str) -> Slide:
-        found = super().slide(joint)
-        rate, second = (
-            each
-            if each.is_zero or self.letters[letter] == letter
-            else symbol(f"{self.letters[letter]}_{joint}{self.mark}", each.amount)
-            for letter, each in (("v", found.rate), ("a", found.second))
-        )
-        return replace(found, rate=rate, second=second)
-
-
-class UnitTable(MarkedTable):
-    """Symbols of the motion with the unit rate of one input, the others at rest: per unit of that rate."""
-
-    def drive(self, name: str) -> tuple[Term, Term, Term]:
-        q, rate, _second = super().drive(name)
-        return q, ONE if rate.amount else ZERO, ZERO
-
-
-class BentTable(MarkedTable):
-    """Symbols of the motion at the rates there are, the accelerations of the inputs zero."""
-
-    def drive(self, name: str) -> tuple[Term, Term, Term]:
-        return *super().drive(name)[:2], ZERO
-
-
-#: Letters of a motion with a unit rate, and of what the rates alone make of accelerations.
-UNIT = {"ω": "i", "v": "ν", "α": "i", "a": "ν"}
-BENT = {"ω": "ω", "v": "v", "α": "ε", "a": "η"}
+from linkwright.worked_solutions.symbols import PointState, SymbolTable
+from linkwright.worked_solutions.unit_motion import BENT, UNIT, BentTable, UnitTable
 
 
 def worked(release: Release, *, language: str = "en") -> Worked:
@@ -338,7 +287,7 @@ class _Writer:
     def _verdict(self) -> list[Message]:
         """What friction decides."""
         release = self.release
-        texts = [verdict_sentence(release)] if release.ways and release.outcome != "moves" else []
+        texts = [release.verdict] if release.outcome != "moves" else []
         if self.equation.rubs and release.outcome == "moves":
             texts.append(_("Friction goes by the joints' forces of the motion that follows; they agree."))
         return texts
@@ -433,28 +382,6 @@ _INERTIA_NOTES = (
     _("M = Σ (m ν_G² + J i²) over all links, twice the kinetic energy per unit of q'²."),
     _("M = Σ (m ν_G·ν_G + J i i) over all links, ν and i of one input and of the other."),
 )
-
-
-def verdict_sentence(release: Release) -> Message:
-    """Whether a mechanism at rest sticks, rests or jams, with the accelerations both ways."""
-    ways = release.ways
-    if release.outcome == "rests":
-        return _("Forces balance in this position: it stays at rest.")
-    if release.outcome == "jams":
-        return _(
-            "Friction would drive it both ways: rigid links with Coulomb's friction give no single answer (it jams)."
-        )
-    if len(ways) == 2:
-        name = next(iter(ways[0]))
-        low, high = sorted(way[name] for way in ways)
-        return _(
-            "It sticks: setting out forward it would be slowed down (q'' = {low}), backward as well (q'' = {high}); "
-            "{share} % of the friction that there can be holds it.",
-            low=f"{low:.4g}",
-            high=f"{high:.4g}",
-            share=f"{100 * release.friction_used:.3g}",
-        )
-    return _("It sticks: whichever way it set out, friction would hold it.")
 
 
 def _part(step: Step) -> int:

@@ -25,7 +25,8 @@ linkwright solve crusher.yaml --at 0..90deg:10        every 10° of the input
 linkwright solve crusher.yaml --at "0 deg, 30 deg" --points C jaw.D
 linkwright solve crusher.yaml --columns "jaw.*" "O5 on jaw"
 linkwright solve crusher.yaml --steps 360 --output crusher.csv
-linkwright solve gallery:excavator --times "0..8 s:0.5" --json"""
+linkwright solve gallery:excavator --times "0..8 s:0.5" --json
+linkwright solve crusher.yaml --free --at 30deg --worked    let go: accelerations, forces"""
     ),
     exclusive=[("steps", "at", "times"), ("worked", "output")],
 )
@@ -50,6 +51,8 @@ linkwright solve gallery:excavator --times "0..8 s:0.5" --json"""
         "equation, the numbers put in, the result"
     ),
 )
+@flag("--free", help=_("nothing drives: accelerations and reactions from the forces alone, let go at rest"))
+@option("--speed", "SPEED", help=_('with --free: rates at that moment: 2rad/s, or of drivers "NAME=…; NAME=…"'))
 @flag("--si", help=_("angles in rad"))
 @output(TABLES, _("write all columns in SI units to FILE.csv or FILE.json"))
 @force
@@ -61,6 +64,14 @@ def run(options: Options, session: Session) -> int:
 
     if options.static and options.forces is False:
         raise UsageError(NOT_TOGETHER.format(name="--static", other="--no-forces"))
+    if options.speed is not None and not options.free:
+        raise UsageError(
+            _("--speed goes with --free: without it the drivers' laws say the rates", code="solve.speed")
+        )
+    if options.free:
+        from linkwright.cli.releasing import free_run
+
+        return free_run(*read_model(options.file, session), options, session)
     solved = solve(*read_model(options.file, session), options)
     if options.worked and solved.trouble is None:
         pages = worked_pages(solved, options, session)
