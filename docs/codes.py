@@ -50,6 +50,7 @@ MEANINGS: Mapping[str, tuple[str, str]] = {
     "coincident": ("coincident points or pins", "本应分开的点或销重合"),
     "conflict": ("markers of an unresolved merge conflict", "合并冲突的标记"),
     "control-character": ("a control character", "文本中的控制字符"),
+    "corner": ("a corner of a path passed at speed", "轨迹的拐角以一定速度通过"),
     "count": ("wrong number of values", "值的个数不对"),
     "decimal-comma": ("a comma in a number", "数中的小数逗号"),
     "demand": ("invalid constraint of an optimisation", "不是优化的要求"),

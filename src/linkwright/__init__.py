@@ -24,6 +24,8 @@ ATTACHED.update(
         "Forces.to_dataframe": "linkwright.kinetostatics.table:force_frame",
         "GearPair.draw": "linkwright.plotting.true_shapes:draw_pair",
         "GearPair.save_dxf": "linkwright.exporters.true_shapes:save_pair",
+        "Guidance.coordinates": "linkwright.kinematics.following:coordinates",
+        "Guidance.posed": "linkwright.kinematics.following:posed",
         "Mechanism._repr_svg_": "linkwright.plotting.drawing.draw:picture_of",
         "Mechanism.structure": "linkwright.topology.decompose:structure",
         "Motion._repr_svg_": "linkwright.plotting.drawing.draw:picture_of",

@@ -86,7 +86,7 @@ class Model:
         self, link: str, *, about: str, relative_to: str | None = None, name: str = "driver", **law: Any
     ) -> None:
         """Turn a link about a pin by a law, by its keys in a file: constant ``speed`` (rad/s) from ``start`` (rad),
-        an expression ``position``, a ``table``."""
+        an expression ``position``, a ``table``; by none where a :meth:`path` moves it."""
         keys = _present(relative_to=relative_to, **law)
         self._section("drivers", name, {"turn": link, "about": about, **keys})
 
@@ -109,6 +109,15 @@ class Model:
         ``mass_centre`` of its parts."""
         keys = _present(stroke=stroke, barrel=barrel, rod=rod, **law)
         self._section("drivers", name, {"between": list(between), **keys})
+
+    def path(
+        self, point: str, along: Iterable[Pair | Mapping[str, Any]], *, smooth: bool = False, **law: Any
+    ) -> None:
+        """The path of a point, which the two drivers without a law follow: points (m) and arcs
+        ``{"about": (x, y), "turn": angle}`` (rad), counter-clockwise; ``speed`` (m/s), ``over`` (s) or another law of
+        the distance along it."""
+        steps = [dict(each) if isinstance(each, Mapping) else list(each) for each in along]
+        self._data["path"] = {"point": point, "along": steps, **({"smooth": True} if smooth else {}), **law}
 
     def assemble(self, **modes: str) -> None:
         """Assembly modes: joint name = left, right, forward or backward."""

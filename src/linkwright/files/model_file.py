@@ -10,6 +10,7 @@ from linkwright.actuators.base import ACTUATORS
 from linkwright.applied_loads.base import LOADS
 from linkwright.core.arguments import describe
 from linkwright.drivers.base import LAWS
+from linkwright.drivers.path import PATH_FIELDS, path_laws
 from linkwright.errors import Finding, ModelError, RequestError
 from linkwright.fields.base import Field, Schema, Word, table_schema
 from linkwright.fields.nodes import Node, Scalar, below
@@ -142,6 +143,7 @@ def json_schema() -> Schema:
             _cycle(),
             _("what one cycle is (default: one turn of the driver); rock: to and fro between the driver's limits"),
         ),
+        "path": (_path(), _("the path of a point, by which the two drivers without a law move")),
         "loads": (_named({"oneOf": [load.schema() for load in LOADS.values()]}), _("loads by name")),
         "actuators": (
             _named({"oneOf": [each.schema() for each in ACTUATORS.values()]}),
@@ -183,7 +185,21 @@ def _drivers() -> list[Schema]:
             shape = table_schema(fields)
             shape["required"] = [*shape["required"], key]
             found.append({"title": f"{name}, {key}", **shape})
+        found.append({"title": f"{name}, by the path", **table_schema(way)})
     return found
+
+
+def _path() -> Schema:
+    laws = {"over": {}, **path_laws()}
+    timed = {key for fields in laws.values() for key in fields} | {"over", "law"}
+    shared = {key: each for key, each in PATH_FIELDS.items() if key not in timed}
+    forms = []
+    for key, fields in laws.items():
+        own = {each: PATH_FIELDS[each] for each in ("over", "law")} if key == "over" else fields
+        shape = table_schema({**shared, **own})
+        shape["required"] = list(dict.fromkeys([*shape["required"], key]))
+        forms.append({"title": key, **shape})
+    return {"oneOf": forms}
 
 
 def _cycle() -> Schema:

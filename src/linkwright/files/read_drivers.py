@@ -9,6 +9,7 @@ from typing import Any
 
 from linkwright.drivers.base import LAWS, Driver, Law
 from linkwright.drivers.cylinder import CYLINDER_FIELDS, barrel_name, rod_name
+from linkwright.drivers.following import Following
 from linkwright.errors import Severity
 from linkwright.fields.base import Field
 from linkwright.fields.nodes import Mapping as MappingNode
@@ -203,6 +204,8 @@ def _read_law(
     rotary: bool,
 ) -> Law | None:
     chosen = [key for key in laws if key in values]
+    if not chosen and reader.has_path:
+        return _without_law(reader, node, place, values, laws, rotary)
     if len(chosen) != 1:
         speed = "170 rpm" if rotary else "0.1 m/s"
         message = (
@@ -233,6 +236,22 @@ def _read_law(
     if foreign or values.get(key) is None:
         return None
     return LAWS[key].from_values(values, rotary, reader.values)
+
+
+def _without_law(
+    reader: Reader,
+    node: MappingNode,
+    place: Place,
+    values: Mapping[str, Any],
+    laws: Mapping[str, Mapping[str, Field]],
+    rotary: bool,
+) -> Law | None:
+    """The law of a driver that follows the model's path."""
+    keys = [name for name in values if any(name in each for each in laws.values())]
+    for name in keys:
+        problem = _('"{name}" does not go with a path, which gives the driver its law', name=name)
+        reader.error(node.get(name), place.child(name), problem, _("remove it, or give the driver a law"), "choice")
+    return None if keys else Following(rotary)
 
 
 def _revolute(

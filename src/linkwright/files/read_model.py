@@ -27,6 +27,7 @@ from linkwright.files.node_reader import MODES
 from linkwright.files.read_cylinders import as_written, with_cylinders
 from linkwright.files.read_drivers import read_cycle, read_drivers, scan_input
 from linkwright.files.read_dynamics import read_actuators, read_run, read_stops
+from linkwright.files.read_path import read_path
 from linkwright.files.read_structure import (
     legible,
     read_drawing,
@@ -70,6 +71,7 @@ SECTIONS = (
     "driver",
     "drivers",
     "cycle",
+    "path",
     "loads",
     "actuators",
     "stops",
@@ -109,6 +111,7 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
     root, _unused = reader.unknown_keys(in_place(reader, root, SECTIONS), top, list(SECTIONS))
     root, reader.cylinders = with_cylinders(root)
     _scan(reader, root)
+    reader.has_path = root.get("path") is not None
     parameters = read_parameters(reader, root.get("parameters"))
     header = reader.table(_only(root, HEADER), top, HEADER) or {}
     frame = read_frame(reader, _frame(root))
@@ -133,6 +136,7 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
             reader, root.get("outputs"), driven=any(root.get(each) for each in ("driver", "drivers"))
         ),
         cycle=read_cycle(reader, root.get("cycle"), drivers),
+        path=read_path(reader, root.get("path"), drivers),
         actuators=read_actuators(reader, root.get("actuators"), loads),
         stops=read_stops(reader, root.get("stops")),
         run=read_run(reader, root, drivers),

@@ -40,6 +40,7 @@ class Reader(PlainReader):
         self.expressions: dict[str, Expression] = {}
         self.input_rotary = True
         self.cylinders: tuple[str, ...] = ()
+        self.has_path = False
         self._plain: str = ""
         self._variables: dict[str, units.Dimension] = {}
 

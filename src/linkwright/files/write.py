@@ -55,6 +55,7 @@ def to_data(mechanism: Mechanism) -> Plain:
     data["drawing"] = _places(mechanism.drawing)
     data |= _drivers(mechanism, cylinders, texts)
     data["cycle"] = _substituted(mechanism.cycle.written(mechanism.across), "cycle", texts) if mechanism.cycle else {}
+    data["path"] = _substituted(mechanism.path.written(), "path", texts) if mechanism.path else {}
     gravity = _substituted(GRAVITY.written(mechanism.gravity), "gravity", texts)
     data["gravity"] = [] if gravity == [0.0, 0.0] else gravity
     data["loads"] = {
@@ -184,7 +185,7 @@ def to_yaml(data: Plain) -> str:
     """Plain data as YAML: one line for each entry of a section."""
     lines: list[str] = []
     for key, value in data.items():
-        if isinstance(value, dict) and key not in ("driver", "cycle", "run"):
+        if isinstance(value, dict) and key not in ("driver", "cycle", "path", "run"):
             lines.append(f"{key}:")
             lines += [f"  {scalar(name)}: {flow(each)}" for name, each in value.items()]
         else:

@@ -63,6 +63,8 @@ def assemble(mechanism: Mechanism, structure: Structure) -> Assembly:
         AssemblyError: a word that the group does not know, a name that is no inner joint, or a group without
             closed form whose points are not drawn.
     """
+    if mechanism.path is not None:  # words and drawing are those of the machine that is driven at the point
+        mechanism = mechanism.posed
     words = tuple(mechanism.assembly.items())
     modes = dict(_worded.get(structure, words, lambda: _from_words(mechanism, structure)))
     drawing = Drawing(mechanism)

@@ -43,8 +43,8 @@ class LawPieces:
     rows: Floats
 
     @classmethod
-    def of(cls, law: Law, start: float, end: float) -> LawPieces:
-        """Those of a law, halved until they meet it between its breaks."""
+    def of(cls, law: Law, start: float, end: float, fine: float = _FINE) -> LawPieces:
+        """Those of a law, halved until they meet it between its breaks, to a share ``fine`` of the largest values."""
         inner = law.breaks(start, end)
         edges = np.concatenate([[start], inner[(inner > start) & (inner < end)], [end]])
         sizes = [max(float(np.abs(row).max()), 1e-300) for row in law.coordinate(np.linspace(start, end, 721))]
@@ -53,7 +53,7 @@ class LawPieces:
         while waiting:
             a, b, halved = waiting.pop()
             row, off = _row(law, a, b, sizes)
-            if off <= _FINE or halved == _HALVINGS:
+            if off <= fine or halved == _HALVINGS:
                 found.append((a, row))
             else:
                 middle = 0.5 * (a + b)
@@ -70,9 +70,9 @@ class LawPieces:
         return middle + rate * (u * half) + twice, rate + once, horner(second, u)
 
 
-def law_pieces(law: Law, start: float, end: float) -> LawPieces:
+def law_pieces(law: Law, start: float, end: float, fine: float = _FINE) -> LawPieces:
     """Those of a law from ``start`` to ``end``, s; what was found serves again."""
-    return _cache.get(law, (start, end), lambda: LawPieces.of(law, start, end))
+    return _cache.get(law, (start, end), lambda: LawPieces.of(law, start, end, fine))
 
 
 _cache: Recent[Law, LawPieces] = Recent(16)

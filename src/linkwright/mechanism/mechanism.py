@@ -16,6 +16,8 @@ from linkwright.core.data import Frozen, FrozenDict, frozen
 from linkwright.core.expressions import Expression
 from linkwright.core.outputs import Output, rate_dimension
 from linkwright.drivers.base import Driver
+from linkwright.drivers.following import Following, Guidance
+from linkwright.drivers.path import Path, path_fields
 from linkwright.drivers.rocking import Rocking
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.fields.base import Field, Quantities
@@ -90,6 +92,7 @@ class Mechanism(Frozen):
     loads: Mapping[str, Load] = field(default_factory=dict)
     outputs: Mapping[str, NamedOutput] = field(default_factory=dict)
     cycle: Cycle | None = None
+    path: Path | None = None
     actuators: Mapping[str, Actuator] = field(default_factory=dict)
     stops: Mapping[str, Stop] = field(default_factory=dict)
     run: RunConditions | None = None
@@ -105,12 +108,13 @@ class Mechanism(Frozen):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        self._rock()
+        self._lead()
 
-    def _rock(self) -> None:
-        """Gives the only driver the law of a cycle that rocks; in any other cycle drivers keep their own laws."""
+    def _lead(self) -> None:
+        """Gives the only driver the law of a cycle that rocks, and those without a law that of a path; in any other
+        machine drivers keep their own laws."""
         rock = None if self.cycle is None else self.cycle.rock
-        if rock is None and all(driver.law.own is driver.law for driver in self.drivers.values()):
+        if rock is None and self.path is None and all(each.law.own is each.law for each in self.drivers.values()):
             return
         own = FrozenDict({name: replace(each, law=each.law.own) for name, each in self.drivers.items()})
         drivers: Mapping[str, Driver] = own
@@ -118,7 +122,23 @@ class Mechanism(Frozen):
             (driver,) = own.values()
             law = Rocking(driver.law, rock, self._changed({}, drivers=own, cycle=None), driver.law.rotary)
             drivers = FrozenDict({driver.name: replace(driver, law=law)})
+        elif self.path is not None:
+            guidance = Guidance(self._changed({}, drivers=own, path=None), self.path)
+            led = {
+                name: replace(each, law=Following(each.law.rotary, name, guidance))
+                for name, each in own.items()
+                if isinstance(each.law, Following)
+            }
+            drivers = FrozenDict({**own, **led})
         object.__setattr__(self, "drivers", drivers)
+
+    @property
+    def posed(self) -> Mechanism:
+        """The machine whose drawing shows how it is put together: of one that follows a path as it is at the path's
+        beginning, else itself."""
+        laws = (each.law for each in self.drivers.values())
+        guidance = next((law.guidance for law in laws if isinstance(law, Following) and law.guidance), None)
+        return self if guidance is None else guidance.posed()
 
     def dimension(self, address: str) -> float:
         """SI value of the dimension at an address such as ``crank.length``; raises for an unknown address."""
@@ -136,7 +156,8 @@ class Mechanism(Frozen):
         if address in ("gravity.x", "gravity.y"):
             return GRAVITY
         sort, name = self._owners.get(address, ("", address.partition(".")[0]))
-        by_section = {"cycle": Cycle.fields(self.across), "run": RunConditions.fields(self.drivers)}
+        by_section: dict[str, Mapping[str, Field]] = {"cycle": Cycle.fields(self.across), "path": path_fields()}
+        by_section["run"] = RunConditions.fields(self.drivers)
         element = self._elements[sort][name] if sort else None
         fields = by_section.get(name, {}) if element is None else element.fields()
         key = address.removeprefix(f"{getattr(element, 'section', '')}.").removeprefix(f"{name}.").partition(".")[0]
@@ -175,9 +196,9 @@ class Mechanism(Frozen):
         drivers = self.drivers if parameters != self.parameters else renewed["driver"]
         same = len(unchanged) == len(self.expressions)
         found = {"_dimensions": new, "_owners": self._owners, "higher": self.higher}
-        rocks = self.cycle is not None and self.cycle.rock is not None
+        led = self.path is not None or (self.cycle is not None and self.cycle.rock is not None)
         changed = self._changed(
-            found | ({"family": self.family} if same and not rocks else {}),
+            found | ({"family": self.family} if same and not led else {}),
             frame=links.pop("frame"),
             links=_with(self.links, links),
             joints=_with(self.joints, joints),
@@ -191,12 +212,15 @@ class Mechanism(Frozen):
             stops=_with(self.stops, {name: self.stops[name].with_dimensions(value) for name in renewed["stop"]}),
             gravity=(value("gravity.x"), value("gravity.y")),
             cycle=None if self.cycle is None else self.cycle.with_dimensions(value),
+            path=None
+            if self.path is None
+            else self.path.with_dimensions(lambda name: value(f"path.{name}"), parameters),
             run=None if self.run is None else self.run.with_dimensions(value),
             parameters=_with(self.parameters, parameters),
             expressions=self.expressions if same else unchanged,
         )
-        if rocks:
-            changed._rock()
+        if led:
+            changed._lead()
         return changed
 
     def _changed(self, found: Mapping[str, Any], **changes: Any) -> Mechanism:
@@ -327,6 +351,8 @@ class Mechanism(Frozen):
         found["gravity.x"], found["gravity.y"] = self.gravity
         if self.cycle is not None:
             found.update(self.cycle.dimensions())
+        if self.path is not None:
+            found.update({f"path.{name}": value for name, value in self.path.dimensions().items()})
         if self.run is not None:
             found.update(self.run.dimensions())
         return found
