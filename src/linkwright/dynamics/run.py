@@ -14,7 +14,8 @@ from linkwright.core.progress import Progress, current_progress
 from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.integration import AT_ONCE, Method, Piece, Stepper, StepTooSmall, Watched
 from linkwright.dynamics.result import Happening, Run
-from linkwright.dynamics.system import ZERO, System
+from linkwright.dynamics.switches import gap_name
+from linkwright.dynamics.system import ZERO, Holding, System
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.positions import coordinate_text
 from linkwright.mechanism.mechanism import Mechanism
@@ -147,7 +148,7 @@ class _Course:
         self.begin = self.y[: len(self.equation.free)].copy()
         self.fastest: dict[int, float] = {}
         self.lost = 0.0
-        self.at_once = 0
+        self.at_once, self.held = 0, 0
         self.pieces: list[Piece] = []
         self.happened: list[Happening] = []
         self.sections: list[Floats] = []
@@ -223,7 +224,7 @@ class _Course:
     def _resting(self) -> bool:
         """Whether all is held, and nothing is going to switch with the time."""
         system, n = self.system, len(self.equation.free)
-        if not system.holding.constrained or np.abs(self.y[n : 2 * n]).max() > 0.0:
+        if not system.holding.constrained or self.held < n or self.y[n : 2 * n].any():
             return False
         return not any(self._pending(k) for k in range(len(system.surfaces)))
 
@@ -289,9 +290,21 @@ class _Course:
                 found.append(number)
         return found
 
-    def _decide(self, touch: Iterable[int]) -> None:
-        """What sticks, slips and touches from here on."""
-        self.system.decide(self.t, self.y, touch)
+    def _decide(self, touch: Iterable[int], slips: Mapping[int, int] | None = None) -> None:
+        """What sticks, slips and touches from here on; the rates of what holds become exactly zero."""
+        system, n = self.system, len(self.equation.free)
+        holding = system.decide(self.t, self.y, touch, slips)
+        if not holding.constrained:
+            return
+        out = system.evaluate(system.full, self.t, self.y).copy()
+        by = [system.gap_by(out, system.surfaces[group[0][0]].number) for group in holding.stick]
+        by += [system.stop_by(out, number) for number in holding.touch]
+        still = [out[system.place[gap_name(system.surfaces[group[0][0]].number)]] for group in holding.stick]
+        still += [out[system.place[f"stop_rate:{system.stops[number]}"]] for number in holding.touch]
+        self.y[n : 2 * n] -= np.linalg.lstsq(np.array(by), np.array(still), rcond=None)[0]
+        self.held = int(np.linalg.matrix_rank(np.array(by)))
+        if self.held == n and not system.prescribed:
+            self.y[n : 2 * n] = 0.0
 
     def _piece(self) -> bool:
         """One piece, and what happens at its end; whether the run goes on."""
@@ -348,7 +361,7 @@ class _Course:
     # events ---------------------------------------------------------------------------------------------
     def _happen(self, happens: list[Watched]) -> bool:
         system = self.system
-        touch = list(system.holding.touch)
+        touch, standing = list(system.holding.touch), system.holding.copy()
         kinds = {each.kind for each in happens}
         for each in happens:
             if each.kind == "end" and not self._turned():
@@ -356,18 +369,30 @@ class _Course:
         if "stop" in kinds:
             touch = self._impact([each.number for each in happens if each.kind == "stop"], touch)
         self._cross([each.number for each in happens if each.kind == "surface"])
+        slips = {}
         for each in happens:
             if each.kind == "leave":
-                self._note("leave", system.stops[system.holding.touch[each.number]])
-        before = system.holding.copy()
-        self._decide(touch)
-        if "slip" in kinds or len(system.holding.stick) != len(before.stick):
-            self._note("slips" if len(system.holding.stick) < len(before.stick) or "slip" in kinds else "sticks", "")
+                left = system.holding.touch[each.number]
+                self._note("leave", system.stops[left])
+                touch.remove(left)
+            if each.kind == "slip":
+                index, _sign = system.holding.stick[each.number][0]
+                slips[index] = -1 if each.sense > 0.0 else 1
+        self._decide(touch, slips)
+        for kind, now, then in (("sticks", system.holding, standing), ("slips", standing, system.holding)):
+            names = dict.fromkeys(owner for owner in self._owners(now) if owner not in self._owners(then))
+            if names:
+                self._note(kind, ", ".join(names))
         if self.end.until == "rest" and self._resting():
             self._note("rest", "")
             self.pieces.append(Piece.resting(system, self.t, self.y))
             return False
         return True
+
+    def _owners(self, holding: Holding) -> list[str]:
+        """Whose friction holds."""
+        surfaces = self.system.surfaces
+        return [owner for group in holding.stick for index, _sign in group for owner in surfaces[index].owners]
 
     def _turned(self) -> bool:
         """What happens at the end of a turn; whether the run goes on."""
@@ -388,20 +413,18 @@ class _Course:
         system, n = self.system, len(self.equation.free)
         out = system.evaluate(system.full, self.t, self.y).copy()
         zero, holding = system.zero(out, self.y), system.holding.copy()
+        switched: dict[str, None] = {}
         for index in crossed:
             if index not in zero:
                 holding.sides[index] *= -1.0
                 if not system.surfaces[index].by_rate:
-                    self._note("switch", str(index))
+                    switched.update(dict.fromkeys(system.surfaces[index].owners))
         system.hold(holding)
-        still = [k for k in crossed if k in zero]
-        if still:
-            rates = np.array([system.gap_by(out, system.surfaces[k].number) for k in still])
-            open_by = [out[system.place[f"gap:{system.surfaces[k].number}"]] for k in still]
-            self.y[n : 2 * n] -= np.linalg.lstsq(rates, open_by, rcond=None)[0]
-            if n == 1:
-                self.y[n] = 0.0
-                self._note("reversal", "")
+        for owner in switched:
+            self._note("switch", owner)
+        if n == 1 and any(k in zero for k in crossed):
+            self.y[n] = 0.0
+            self._note("reversal", "")
         gaps = system.gaps(out)
         near = [
             k

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import product
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.outputs import Output
 from linkwright.dynamics.complementarity import shares
 from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.right_side import RightSide
@@ -16,19 +18,27 @@ from linkwright.dynamics.switches import gap_name, switch_name
 
 #: A rate is zero below this share of the largest one seen; a jump of accelerations, below this share of their size.
 ZERO, NO_JUMP = 1e-9, 1e-12
+#: Rounding of shares and rates where it is decided what slips; of so many groups and stops all ways are tried.
+SLACK, MOST_TRIED = 1e-9, 5
 #: Newton's steps of groups without closed form at a position, and the change that ends them.
 CLOSING_STEPS, CLOSED = 24, 1e-13
+
+
+#: Surfaces, each with its side where the first is above, that stick and slip together.
+Group = tuple[tuple[int, float], ...]
 
 
 @dataclass(frozen=True)
 class Surface:
     """Where comparisons go over together: the switches by number, with 1 for those that hold above, -1 below.
 
-    ``by_rate``: its gap goes by rates, so that forces decide on which side it goes on.
+    ``by_rate``: its gap goes by rates, so that forces decide on which side it goes on; ``owners``: loads and joints
+    whose forces switch there.
     """
 
     members: tuple[tuple[int, float], ...]
     by_rate: bool
+    owners: tuple[str, ...]
 
     @property
     def number(self) -> int:
@@ -42,7 +52,7 @@ class Holding:
     together, with the sides of the others where the first is above; stops that ``touch``."""
 
     sides: Floats
-    stick: list[tuple[tuple[int, float], ...]] = field(default_factory=list)
+    stick: list[Group] = field(default_factory=list)
     touch: list[int] = field(default_factory=list)
 
     @property
@@ -84,7 +94,7 @@ class System:
             for side in (self.slim, self.full)
         }
         self._switches = {side: self._rows(side) for side in (self.slim, self.full)}
-        self._fixed = [name for name in equation.names if name not in self.free]
+        self.prescribed = [name for name in equation.names if name not in self.free]
         self.holding = Holding(np.ones(len(self.surfaces)))
         self.missed = 0
         self.pace = np.zeros(len(self.free))
@@ -125,7 +135,7 @@ class System:
         n, x = len(self.free), side.x
         x[: 2 * n] = y[: 2 * n]
         x[2 * n] = t
-        if self._fixed:
+        if self.prescribed:
             self._prescribe(side, t)
         side.call()
         if len(self._states[side]):
@@ -134,7 +144,7 @@ class System:
 
     def _prescribe(self, side: RightSide, t: float) -> None:
         """Coordinates and rates of the inputs that have laws."""
-        for name in self._fixed:
+        for name in self.prescribed:
             course = self.equation.source.drivers[name].law.coordinate(np.array([t]))
             for kind, value in zip(("q", "w", "second"), course, strict=True):
                 row = side.inputs.get(f"{kind}:{name}")
@@ -182,7 +192,7 @@ class System:
         return np.asarray(base + held @ turns), held
 
     def _answers(
-        self, t: float, y: Floats, stick: Sequence[tuple[tuple[int, float], ...]], touch: Sequence[int]
+        self, t: float, y: Floats, stick: Sequence[Group], touch: Sequence[int]
     ) -> tuple[Floats, Floats, Floats, Floats]:
         """Accelerations and power (n + 1,) with all that may stick on the side below and no force at stops; then the
         rates (k,) of what must stay zero, what unit shares change of them (k, k), and of the former (k, n + 1)."""
@@ -248,8 +258,9 @@ class System:
                     found.append(index)
         return found
 
-    def decide(self, t: float, y: Floats, touch: Iterable[int]) -> Holding:
-        """What holds from a time on; stops that ``touch`` are neither left nor run into.
+    def decide(self, t: float, y: Floats, touch: Iterable[int], slips: Mapping[int, int] | None = None) -> Holding:
+        """What holds from a time on; stops that ``touch`` are neither left nor run into; ``slips``: surfaces that
+        have just begun to slip, with the way.
 
         Forces that do not jump let a surface by rates that is zero go over as its rate tells; of the others it is
         found which stick.
@@ -262,18 +273,52 @@ class System:
             return holding
         _, first, gains, _ = self._answers(t, y, groups, touching)
         most = np.array([1.0] * len(groups) + [np.inf] * len(touching))
-        found = shares(first, gains, most)
-        for group, share in zip(groups, found.tolist(), strict=False):
-            if 0.0 < share < 1.0:
-                holding.stick.append(group)
-                continue
-            for index, sign in group:
-                holding.sides[index] = sign if share == 1.0 else -sign
-        holding.touch = [stop for stop, force in zip(touching, found[len(groups) :], strict=True) if force > 0.0]
-        self.hold(holding)
-        return holding
+        ways = [_way(share, end) for share, end in zip(shares(first, gains, most).tolist(), most, strict=True)]
+        choices = [(-1, 0, 1)] * len(groups) + [(-1, 0)] * len(touching)
+        others = product(*choices) if len(choices) <= MOST_TRIED else ()
+        for k, group in enumerate(groups):
+            ways[k] = next((int(way * sign) for index, sign in group if (way := (slips or {}).get(index))), ways[k])
+        for each in (tuple(ways), *others):
+            self.hold(self._chosen(holding, groups, touching, each))
+            if self._consistent(t, y, groups, each):
+                return self.holding
+        self.hold(self._chosen(holding, groups, touching, tuple(ways)))
+        return self.holding
 
-    def _together(self, t: float, y: Floats, zero: list[int]) -> list[tuple[tuple[int, float], ...]]:
+    @staticmethod
+    def _chosen(start: Holding, groups: Sequence[Group], touching: Sequence[int], ways: tuple[int, ...]) -> Holding:
+        """What holds where each group slips below or above, -1 and 1, or sticks, 0, and each stop is left or held."""
+        found = start.copy()
+        for group, way in zip(groups, ways, strict=False):
+            if way == 0:
+                found.stick.append(group)
+            for index, sign in group:
+                found.sides[index] = sign * (way or 1)
+        found.touch = [stop for stop, way in zip(touching, ways[len(groups) :], strict=True) if way == 0]
+        return found
+
+    def _consistent(self, t: float, y: Floats, groups: Sequence[Group], ways: tuple[int, ...]) -> bool:
+        """Whether what slips goes on that way, and what holds needs no more than there is."""
+        out, accelerations = self.evaluate(self.full, t, y).copy(), None
+        if self.holding.constrained:
+            found, held = self.constrained(t, y)
+            accelerations = found[: len(self.free)]
+            sticking = held[: len(self.holding.stick)]
+            if (sticking < -SLACK).any() or (sticking > 1.0 + SLACK).any() or (held[len(sticking) :] < 0.0).any():
+                return False
+        else:
+            accelerations = out[: len(self.free)]
+        size = float(np.abs(accelerations).max())
+        for group, way in zip(groups, ways, strict=False):
+            index, sign = group[0]
+            surface = self.surfaces[index]
+            by = self.gap_by(out, surface.number)
+            change = out[self.place[f"rate:{surface.number}"]] + by @ (accelerations - out[: len(self.free)])
+            if way and way * sign * surface.members[0][1] * change < -SLACK * size * float(np.linalg.norm(by)):
+                return False
+        return True
+
+    def _together(self, t: float, y: Floats, zero: list[int]) -> list[Group]:
         """Surfaces whose rates are multiples of one another, as they stick and slip together; those across which no
         force jumps are set to the side to which they go."""
         n = len(self.free)
@@ -311,6 +356,13 @@ class System:
         return float(np.abs(values[1] - values[0]).max()), float(np.abs(values).max())
 
 
+def _way(share: float, most: float) -> int:
+    """Below, 0 of what sticks or is held, or above."""
+    if share <= 0.0:
+        return -1
+    return 1 if share >= most else 0
+
+
 def _surfaces(equation: EquationOfMotion) -> list[Surface]:
     """The switches, those together whose comparisons differ by sense alone."""
     lines = equation.switches.trace.lines
@@ -319,8 +371,24 @@ def _surfaces(equation: EquationOfMotion) -> list[Surface]:
     for number, line in enumerate(equation.switches.lines):
         low, high = lines[line][1:]
         found.setdefault((min(low, high), max(low, high)), []).append((number, 1.0 if low < high else -1.0))
+    owners = _owners(equation)
     surfaces = []
     for members in found.values():
         gap = equation.program([gap_name(members[0][0])])
-        surfaces.append(Surface(tuple(members), not rates.isdisjoint(gap.positions)))
+        own = tuple(dict.fromkeys(owner for number, _sign in members for owner in owners[number]))
+        surfaces.append(Surface(tuple(members), not rates.isdisjoint(gap.positions), own))
     return surfaces
+
+
+def _owners(equation: EquationOfMotion) -> list[list[str]]:
+    """The loads and the joints that rub whose forces go by each switch."""
+    trace, lines = equation.switches.trace, equation.switches.lines
+    found: list[list[str]] = [[] for _line in lines]
+    for name, wrenches in equation.forces.forces.wrenches.items():
+        values = [value for each in wrenches for value in (each.force.x, each.force.y, each.torque)]
+        needed = set(trace.needed([trace.lift(value) for value in values]))
+        owner = name if name in equation.mechanism.loads else Output.of_row(name).owner
+        for number, line in enumerate(lines):
+            if line in needed and owner not in found[number]:
+                found[number].append(owner)
+    return found
