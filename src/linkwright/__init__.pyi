@@ -40,6 +40,8 @@ from .designs.optimise.optimum import OptimizeError as OptimizeError
 from .designs.optimise.optimum import Optimum as Optimum
 from .designs.prepared import Prepared as Prepared
 from .designs.prepared import prepare as prepare
+from .designs.runs_of_designs import RunsOfDesigns as RunsOfDesigns
+from .designs.runs_of_designs import run_designs as run_designs
 from .designs.sensitivity import Sensitivity as Sensitivity
 from .designs.sensitivity import sensitivity as sensitivity
 from .designs.study import Study as Study

@@ -10,7 +10,7 @@ from functools import cache
 
 import numpy as np
 
-from linkwright.core.arrays import Floats, Integers
+from linkwright.core.arrays import Floats, Indices, Integers
 from linkwright.dynamics import event_kernels as places
 from linkwright.dynamics import step_kernels as method
 from linkwright.dynamics.loop_kernels import kernels
@@ -25,6 +25,8 @@ from linkwright.formula.threads import spread_over
 class Outcome(IntEnum):
     """How a motion ended."""
 
+    WAITING = 0
+    """Not begun."""
     ENDED = int(places.ENDED)
     """At its end."""
     STOPPED = int(places.STOPPED)
@@ -166,13 +168,15 @@ class Loop:
         motions: Motions,
         *,
         relative: float = 1e-9,
-        absolute: float | Sequence[float] = 1e-9,
+        absolute: float | Floats = 1e-9,
         inside: int = 3,
         grid: Sequence[float] | Floats = (),
         most: float = 1e6,
         threads: int = 1,
+        rows: Indices | None = None,
     ) -> int:
-        """All motions on to their ends or events; evaluations of the program, eight motions in each.
+        """All motions, or those of some ``rows``, on to their ends or events; evaluations of the program, eight
+        motions in each.
 
         ``relative``, ``absolute``: tolerances of coordinates, rates and work. ``inside``: places within a step at
         which events are looked for. ``grid``: times of the samples, of as many as the motions have. ``most``: steps.
@@ -184,15 +188,20 @@ class Loop:
         if len(times) <= motions.samples.shape[1]:
             raise ValueError(f"the motions have room for {motions.samples.shape[1]} samples, not {len(times) - 1}")
         motions.sides[np.isnan(motions.sides)] = places.UNKNOWN
+        all_records, all_samples = motions.records, motions.samples
+        if rows is not None:
+            all_records, all_samples = all_records[rows], all_samples[rows]
         calls: list[int] = []
 
         def work(first: int, after: int) -> None:
-            records, samples = motions.records[first:after], motions.samples[first:after]
+            records, samples = all_records[first:after], all_samples[first:after]
             calls.append(self._worker().run(plan, settings, records, times, samples))
 
-        count = len(motions.records)
+        count = len(all_records)
         share = -(-count // max(1, threads))
         spread_over(count, -(-share // LANES) * LANES if threads > 1 else count, threads, work)
+        if rows is not None:
+            motions.records[rows], motions.samples[rows] = all_records, all_samples
         motions.sides[motions.sides == places.UNKNOWN] = np.nan
         return sum(calls)
 

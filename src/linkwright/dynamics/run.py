@@ -77,8 +77,23 @@ def run(
         0.1
     """
     require(mechanism, Mechanism)
+    conditions = conditions_of(mechanism, duration, turns, until, at_most, at, speed, prescribed)
+    return _Course(mechanism, conditions, tolerance, method, progress or current_progress()).go()
+
+
+def conditions_of(
+    mechanism: Mechanism,
+    duration: float | None = None,
+    turns: float | None = None,
+    until: Until | None = None,
+    at_most: float | None = None,
+    at: float | Mapping[str, float] | None = None,
+    speed: float | Mapping[str, float] | None = None,
+    prescribed: Iterable[str] | None = None,
+) -> RunConditions:
+    """How a run begins and ends: what is given goes before the section ``run`` of the file."""
     asked = mechanism.run or RunConditions()
-    conditions = RunConditions(
+    return RunConditions(
         at={**asked.at, **_by_name(mechanism, at)},
         speed={**asked.speed, **_by_name(mechanism, speed)},
         duration=duration if _any(duration, turns, until) else asked.duration,
@@ -87,7 +102,6 @@ def run(
         at_most=asked.at_most if at_most is None else at_most,
         prescribed=asked.prescribed if prescribed is None else tuple(prescribed),
     )
-    return _Course(mechanism, conditions, tolerance, method, progress or current_progress()).go()
 
 
 def _any(*values: object) -> bool:

@@ -71,7 +71,7 @@ class System:
     def __init__(self, equation: EquationOfMotion) -> None:
         self.equation = equation
         self.free, self.stops = equation.free, list(equation.mechanism.stops)
-        self.surfaces = _surfaces(equation)
+        self.surfaces = surfaces_of(equation)
         names = [*(f"a:{name}" for name in self.free), "power"]
         carried = list(equation.states)
         names += [f"next:{name}" for name in carried]
@@ -363,7 +363,7 @@ def _way(share: float, most: float) -> int:
     return 1 if share >= most else 0
 
 
-def _surfaces(equation: EquationOfMotion) -> list[Surface]:
+def surfaces_of(equation: EquationOfMotion) -> list[Surface]:
     """The switches, those together whose comparisons differ by sense alone."""
     lines = equation.switches.trace.lines
     rates = {f"w:{name}" for name in equation.free}
