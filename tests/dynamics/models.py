@@ -141,3 +141,50 @@ def windows(n: int) -> str:
             "gravity: [0, -9.81 m/s²]",
         ]
     )
+
+
+PRESS = """
+format: 1
+name: Crank press
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 0.1 m, mass: 10 kg, inertia: 0.6 kg·m²}
+  rod: {points: [A, B], length: 0.45 m, mass: 12 kg, inertia: 0.25 kg·m²}
+  slide: {points: [B], mass: 60 kg}
+joints:
+  guide: {kind: prismatic, guide: frame, through: O, direction: -90 deg, block: slide, at: B}
+assembly: {B: forward}
+driver: {turn: crank, about: O, speed: 1 rad/s, start: 20 deg}
+gravity: [0, -9.81 m/s²]
+"""
+
+#: A crank-rocker with one load of each kind that acts without switching.
+LOADED = (
+    CRANK_ROCKER.replace("name: Crank-rocker", "name: Loaded crank-rocker").replace(
+        "O2: [0.4 m, 0 m]", "O2: [0.4 m, 0 m], S: [0.1 m, 0.4 m]"
+    )
+    + """
+loads:
+  spring: {kind: spring, between: [coupler.B, frame.S], stiffness: 400 N/m, free_length: 0.15 m, preload: 6 N}
+  damper: {kind: damper, between: [coupler.A, frame.S], damping: 25 N·s/m}
+  twist: {kind: torsion_spring, links: [frame, rocker], stiffness: 3 N·m/rad, free_angle: 80 deg}
+  oil: {kind: torsion_damper, links: [coupler, rocker], damping: 0.2 N·m·s/rad}
+  push: {kind: force, on: coupler, at: B, in_link: 70 deg, magnitude: 18 N}
+  couple: {kind: torque, on: crank, against: coupler, magnitude: 1.5 N·m}
+"""
+)
+
+#: A crank whose pin turns a slotted lever: a guide on a link that moves.
+TURNING_GUIDE = """
+format: 1
+name: Crank and slotted lever
+frame: {points: {O: [0 m, 0.25 m], P: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 0.1 m, mass: 1 kg, inertia: 0.004 kg·m²}
+  stone: {points: [A], mass: 0.3 kg, inertia: 0.0001 kg·m²}
+  lever: {points: {P: [0 m, 0 m], T: [0.5 m, 0 m]}, mass: 3 kg, inertia: 0.07 kg·m², mass_centre: [0.2 m, 0.03 m]}
+joints:
+  slot: {kind: prismatic, guide: lever, through: P, direction: 0 deg, block: stone, at: A}
+driver: {turn: crank, about: O, speed: 1 rad/s, start: 10 deg}
+gravity: [0, -9.81 m/s²]
+"""

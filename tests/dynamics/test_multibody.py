@@ -1,11 +1,11 @@
-"""The independent multibody integration itself: closed forms, energy, and Andrews' squeezer as printed."""
+"""The independent multibody integration itself: closed forms and energy."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 from scipy.special import ellipk
-from tests.dynamics import andrews, models
+from tests.dynamics import models
 from tests.multibody import FreeMotion, FreeMultibody, motor
 
 import linkwright as lw
@@ -97,16 +97,3 @@ def test_energy_is_kept(text: str, end: float) -> None:
     energy = found.kinetic + np.sum(weight, axis=0)
     assert abs(energy[1] - energy[0]) < 2e-12 * found.kinetic[1]
     assert found.gap < 1e-9
-
-
-@pytest.mark.rotating
-def test_andrews_squeezer_is_as_printed() -> None:
-    owner = FreeMultibody(lw.loads(models.ANDREWS))
-    start = owner.start()
-    assert owner.acceleration(0.0, *start)[1, 2] == pytest.approx(andrews.FIRST_ACCELERATION, rel=1e-13)
-    found = owner.run(start, np.array([0.0, andrews.END]), rtol=1e-13)
-    for order, within in enumerate((1e-9, 1e-7, 1e-5)):
-        links = {name: found.motion.angle(name)[order][1] for name in owner.mechanism.links}
-        assert andrews.off(links, order) < within
-    for link, force in andrews.FORCES.items():
-        assert found.forces.on("E", link)[0][1] == pytest.approx(force, rel=1e-5)

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.files.model_file import load
+from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import output_meant
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
@@ -33,7 +34,18 @@ def machine(inputs: Mapping[str, Any]) -> Find:
         motion = solve_motion(mechanism, at=[parse(at, mechanism.across)])
     else:
         motion = solve_motion(mechanism)
-    forces = _forces(motion)
+    return _by_column(motion, _forces(motion))
+
+
+def run(inputs: Mapping[str, Any]) -> Find:
+    """Results of a model at the end of its run under forces, by the names of its columns."""
+    from linkwright.dynamics.run import run as run_of
+
+    found = run_of(load(_source(inputs)), tolerance=float(inputs["tolerance"]))
+    return _by_column(found.motion(times=[found.end]), found.joint_forces(times=[found.end]))
+
+
+def _by_column(motion: Motion, forces: Forces | None) -> Find:
     values = {output.column: column[0] for output, column in results_of(motion, forces).items()}
 
     def find(what: str) -> float:
@@ -42,9 +54,9 @@ def machine(inputs: Mapping[str, Any]) -> Find:
         if what in values:
             return float(values[what])
         if " on " in what and forces is not None:
-            output = output_meant(mechanism, f"reaction {what}")
+            output = output_meant(motion.mechanism, f"reaction {what}")
             return float(forces.reaction(output.owner, on=output.on)[0]["xy".index(output.component)])
-        return float(motion.read(output_meant(mechanism, what))[0])
+        return float(motion.read(output_meant(motion.mechanism, what))[0])
 
     return find
 
@@ -243,6 +255,7 @@ PROBES: Mapping[str, Probe] = {
     each.__name__: each
     for each in (
         machine,
+        run,
         limits,
         metrics,
         structure,

@@ -216,6 +216,7 @@ STRUCTURE = ("mobility", "grubler", "class")
 WHY = {
     "arc_cosine": _("the angle comes from an arc cosine, which cannot be negative"),
     "follows": _("follows from the rocker's wrong angle"),
+    "own_energy": _("the printed state misses its own energy by 1.5e-10: its integration was off"),
 }
 
 
