@@ -7,7 +7,8 @@ it is in h. With friction in joints T bends with the accelerations; Newton's ste
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -15,7 +16,8 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.inputs import Input, driven
 from linkwright.core.outputs import row_name
-from linkwright.dynamics.site import FreeSite, freed, load_numbers
+from linkwright.drivers.base import Driver
+from linkwright.dynamics.site import FreeSite, SeenFromModel, coordinate_of, freed, load_numbers, near_name
 from linkwright.dynamics.stops import contact_name, stop_gap
 from linkwright.dynamics.switches import Held, Switches, gap_name
 from linkwright.errors import LinkwrightError
@@ -28,6 +30,8 @@ from linkwright.kinematics.assembly import Assembly, modal_groups
 from linkwright.kinematics.groups import jacobian
 from linkwright.kinematics.programs import Manner, motion_programs
 from linkwright.kinematics.solver import MotionSolver
+from linkwright.kinematics.trace import MotionTrace
+from linkwright.kinetostatics.load_site import TracedSite
 from linkwright.kinetostatics.solver import ForceSolver
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _
@@ -59,9 +63,15 @@ class EquationOfMotion:
         varied: Iterable[str] = (),
         flipping: bool = False,
         assembly: Assembly | None = None,
+        coordinates: Mapping[str, Driver] | None = None,
     ) -> None:
+        """``coordinates``: the joints whose coordinates are free, instead of those of the drivers."""
         self.source = mechanism
-        self.mechanism = freed(mechanism)
+        self.mechanism = model = freed(mechanism)
+        site: Callable[..., TracedSite] = FreeSite
+        if coordinates is not None:
+            site = SeenFromModel.of(model)
+            self.mechanism = replace(model, drivers=coordinates, assembly={}, drawing={})
         if not self.mechanism.drivers:
             raise LinkwrightError(
                 _(
@@ -81,12 +91,12 @@ class EquationOfMotion:
             groups = modal_groups(motion_programs(self.mechanism, manner).structure)
             manner = Manner(self.varied, frozenset(groups), ITERATIONS)
         self.solver = MotionSolver(self.mechanism, manner, assembly)
-        self.load_numbers, self.tables = load_numbers(self.mechanism)
+        self.load_numbers, self.tables = load_numbers(model)
         magnitudes = frozenset(self.mechanism.loads)
         self.rubs = any(joint.friction_arm for joint in self.mechanism.joints.values())
-        self.forces = ForceSolver(self.solver, along_input=magnitudes, rubbing=self.rubs, site=FreeSite)
-        self.plain = ForceSolver(self.solver, along_input=magnitudes, site=FreeSite)
-        self.resting = ForceSolver(self.solver, along_input=magnitudes, inertia=False, site=FreeSite)
+        self.forces = ForceSolver(self.solver, along_input=magnitudes, rubbing=self.rubs, site=site)
+        self.plain = ForceSolver(self.solver, along_input=magnitudes, site=site)
+        self.resting = ForceSolver(self.solver, along_input=magnitudes, inertia=False, site=site)
 
     # numbers and inputs ---------------------------------------------------------------------------------
     @cached_property
@@ -114,6 +124,11 @@ class EquationOfMotion:
         """Chain coordinates of the groups without closed form, in the drawing."""
         return {name: self.solver.assembly.states[name] for name in self.solver.motion.next_states}
 
+    @cached_property
+    def replaced(self) -> list[str]:
+        """The model's drivers whose joints are no coordinates."""
+        return [name for name in self.source.drivers if name not in self.names]
+
     # traced ---------------------------------------------------------------------------------------------
     @cached_property
     def _source(self) -> dict[str, Scalar]:
@@ -129,9 +144,11 @@ class EquationOfMotion:
             out |= {f"M:{name}:{other}": slope(plain, {second: 1.0}) for other, second in seconds.items()}
         if self.rubs:
             out["rubbing"] = self.forces.forces.friction_power
-        out |= {f"quality:{group}": self._quality(group) for group in self.groups}
+        out |= {f"quality:{group}": group_quality(motion, group) for group in self.groups}
         out |= {f"next:{name}": value for name, value in motion.next_states.items()}
         out |= {f"stop:{name}": stop_gap(motion, stop) for name, stop in self.mechanism.stops.items()}
+        for name in self.replaced:
+            out[f"input:{name}"], out[f"input_rate:{name}"] = coordinate_of(motion, self.source.drivers[name])
         return {**out, "outcome": motion.outcome}
 
     def _kinematic(self) -> list[Scalar]:
@@ -141,22 +158,6 @@ class EquationOfMotion:
             place, velocity, direction = state.pose.place, state.velocity, state.pose.direction
             found += [place.x, place.y, direction.x, direction.y, velocity.x, velocity.y, state.omega, state.alpha]
         return found
-
-    def _quality(self, group: str) -> Scalar:
-        """Square of the determinant of a group's Jacobian over those of its columns: of two pinned bars the square of
-        the sine between them.
-
-        A dyad's own square root does not do: where the outer joints of equal bars coincide it has its best value, and
-        the position is open.
-        """
-        motion = self.solver.motion
-        placed = motion.placed[group]
-        matrix = jacobian(placed.group, placed.cuts, motion.poses, motion.dimensions)
-        value = determinant(matrix) if len(matrix) > 1 else matrix[0][0]
-        size: Scalar = 1.0
-        for column in zip(*matrix, strict=True):
-            size = size * sum((each * each for each in column), 0.0)
-        return value * value / size
 
     @cached_property
     def switches(self) -> Switches:
@@ -241,6 +242,7 @@ class EquationOfMotion:
             given[name] = t.position(name) if name in carried else 0.0
         given |= {name: t.position(name) for name in source.parameters if name in self.varied}
         given |= {name: t.position(name) for name in map(contact_name, self.mechanism.stops)}
+        given |= {name: t.position(name) for name in map(near_name, self.replaced)}
         return given | {"time": t.position("time"), "input": t.position(f"q:{self.names[0]}")}
 
     # programs -------------------------------------------------------------------------------------------
@@ -286,3 +288,19 @@ class EquationOfMotion:
 
 def _number(value: Scalar | bool) -> Scalar:
     return float(value) if isinstance(value, bool) else value
+
+
+def group_quality(motion: MotionTrace, group: str) -> Scalar:
+    """Square of the determinant of a group's Jacobian over those of its columns: of two pinned bars the square of the
+    sine between them.
+
+    A dyad's own square root does not do: where the outer joints of equal bars coincide it has its best value, and the
+    position is open.
+    """
+    placed = motion.placed[group]
+    matrix = jacobian(placed.group, placed.cuts, motion.poses, motion.dimensions)
+    value = determinant(matrix) if len(matrix) > 1 else matrix[0][0]
+    size: Scalar = 1.0
+    for column in zip(*matrix, strict=True):
+        size = size * sum((each * each for each in column), 0.0)
+    return value * value / size

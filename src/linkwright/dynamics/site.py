@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from linkwright.applied_loads.base import Load
 from linkwright.applied_loads.signals import BetweenLimits
@@ -15,8 +15,9 @@ from linkwright.drivers.free import Free
 from linkwright.dynamics.stops import contact
 from linkwright.errors import LinkwrightError
 from linkwright.formula.table import Table
-from linkwright.formula.trace import Scalar, select
+from linkwright.formula.trace import Scalar, angle, nearest_turn, select
 from linkwright.kinematics.solve import solve_motion
+from linkwright.kinematics.trace import MotionOutputs, MotionTrace
 from linkwright.kinetostatics.load_site import TracedSite, limit_name, sense_name, value_name
 from linkwright.kinetostatics.signals import MotionSignals, numbers_of_loads
 from linkwright.mechanism.mechanism import Mechanism
@@ -34,9 +35,7 @@ class FreeSite(TracedSite):
 
     @property
     def sense(self) -> Scalar:
-        driver = next(iter(self.motion.mechanism.drivers))
-        rate = self.motion.trace.position(Input("rate", driver).name)
-        return select(rate >= 0.0, 1.0, -1.0)
+        return select(coordinate_of(self.motion, self.drivers[0])[1] >= 0.0, 1.0, -1.0)
 
     @property
     def heading(self) -> Scalar:
@@ -52,6 +51,58 @@ class FreeSite(TracedSite):
 
     def share_of_input(self, phase: BetweenLimits, share: Scalar) -> Scalar:
         return share
+
+
+class ModelSite(FreeSite):
+    """The same where other joints than those of the model's ``drivers`` are the coordinates: the loads go by the
+    model's."""
+
+    def __init__(self, drivers: tuple[Driver, ...], motion: MotionTrace, load: Load, **manner: bool) -> None:
+        super().__init__(motion, load, **manner)
+        self._drivers = drivers
+
+    @property
+    def drivers(self) -> tuple[Driver, ...]:
+        return self._drivers
+
+    @property
+    def input(self) -> Scalar:
+        return coordinate_of(self.motion, self.drivers[0])[0]
+
+
+@dataclass(frozen=True)
+class SeenFromModel:
+    """Makes these views; equal for drivers that differ in numbers only."""
+
+    drivers: tuple[Driver, ...]
+
+    @classmethod
+    def of(cls, mechanism: Mechanism) -> SeenFromModel:
+        """Those of a model's loads."""
+        drivers = mechanism.drivers.values()
+        return cls(tuple(replace(each, law=Free(0.0, 0.0, each.law.rotary)) for each in drivers))
+
+    def __call__(self, motion: MotionTrace, load: Load, **manner: bool) -> ModelSite:
+        return ModelSite(self.drivers, motion, load, **manner)
+
+
+def near_name(driver: str) -> str:
+    """Name of the input near which, within half a turn, a driver's angle is where another joint is the coordinate."""
+    return f"near:{driver}"
+
+
+def coordinate_of(motion: MotionTrace, driver: Driver) -> tuple[Scalar, Scalar]:
+    """The coordinate of a driver's joint, rad or m, and its rate, whether the motion goes by it or not."""
+    if driver.name in motion.drivers:
+        own = Input("turn" if driver.law.rotary else "slide", driver.name)
+        return motion.trace.position(own.name), motion.drivers[driver.name].rate
+    if not driver.law.rotary:
+        place, rate, _second = MotionOutputs(motion).slide(driver.joint)
+        return place, rate
+    a, b = motion.states[driver.relative_to], motion.states[driver.link]
+    along, e = a.pose.direction, b.pose.direction
+    near = motion.trace.position(near_name(driver.name))
+    return nearest_turn(angle(along.cross(e), along.dot(e)), near), b.omega - a.omega
 
 
 def freed(mechanism: Mechanism) -> Mechanism:

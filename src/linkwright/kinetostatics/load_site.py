@@ -6,6 +6,7 @@ from linkwright.applied_loads.base import Load
 from linkwright.applied_loads.signals import BetweenLimits, place_named
 from linkwright.applied_loads.strokes import moving_of_turn, share_of, stroke_of_turn
 from linkwright.core.outputs import Output, row_name
+from linkwright.drivers.base import Driver
 from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Mask, Scalar, angle, cos, select, sign, sin, sqrt
 from linkwright.kinematics.trace import MotionOutputs, MotionTrace
@@ -111,6 +112,11 @@ class TracedSite:
         self.inertia = inertia
 
     @property
+    def drivers(self) -> tuple[Driver, ...]:
+        """The drivers by whose coordinates and senses loads go."""
+        return tuple(self.motion.mechanism.drivers.values())
+
+    @property
     def time(self) -> Scalar:
         return self.motion.trace.position("time")
 
@@ -141,7 +147,7 @@ class TracedSite:
         return MotionOutputs(self.motion).slide(joint)[2] if self.inertia else 0.0
 
     def drive_sense(self, link: str, against: str) -> Scalar:
-        for driver in self.motion.mechanism.drivers.values():
+        for driver in self.drivers:
             if {link, against} == {driver.link, driver.relative_to}:
                 own = self.motion.trace.parameter(sense_name(driver.name))
                 return own if link == driver.link else -own
@@ -175,7 +181,7 @@ class TracedSite:
 
     @property
     def rotary(self) -> bool:
-        return next(iter(self.motion.mechanism.drivers.values())).law.rotary
+        return self.drivers[0].law.rotary
 
     @property
     def heading(self) -> Scalar:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from typing import Any, NoReturn
 
@@ -44,7 +44,7 @@ class ForceSolver:
         inertia: bool = True,
         along_input: frozenset[str] = frozenset(),
         rubbing: bool = False,
-        site: type[TracedSite] = TracedSite,
+        site: Callable[..., TracedSite] = TracedSite,
     ) -> None:
         self.motion = motion
         self.inertia = inertia
@@ -136,7 +136,7 @@ class ForcePrograms:
         inertia: bool,
         along_input: frozenset[str],
         rubbing: bool,
-        site: type[TracedSite],
+        site: Callable[..., TracedSite],
     ) -> None:
         self.site = site
         self.motion = motion
@@ -225,7 +225,7 @@ def force_programs(
     inertia: bool = True,
     along_input: frozenset[str] = frozenset(),
     rubbing: bool = False,
-    site: type[TracedSite] = TracedSite,
+    site: Callable[..., TracedSite] = TracedSite,
 ) -> ForcePrograms:
     """The programs of the forces that belong to those of a motion; arguments as for ``trace_forces``, ``rubbing``:
     the friction is traced, else an input per position."""

@@ -118,7 +118,7 @@ def trace_forces(
     extra: Mapping[str, list[Wrench]] | None = None,
     along_input: Set[str],
     size: Size = lambda _, force: absolute(force),
-    site: type[TracedSite] = TracedSite,
+    site: Callable[..., TracedSite] = TracedSite,
 ) -> ForceTrace:
     """Traces all joint forces of a traced motion.
 
