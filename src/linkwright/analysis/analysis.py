@@ -191,7 +191,7 @@ class Analysis:
         return np.asarray(values + TURN * np.round((near - values) / TURN))
 
     def _read(self, names: tuple[str, ...], solved: Motion | Forces) -> Floats:
-        if isinstance(solved, Forces):
+        if isinstance(solved, Forces) or not solved.by_law:
             return solved.evaluate(names)
         values = ForceSolver(solved.solver).evaluate(names, solved, {})
         if not solved.ok.all():

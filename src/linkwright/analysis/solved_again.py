@@ -39,7 +39,7 @@ def in_enough_positions(motion: Motion, forces: Forces | None) -> tuple[Motion, 
     from linkwright.kinetostatics.run import run_forces
 
     positions = motion.positions
-    if not (positions.cycle and positions.steps < FEWEST and motion.inputs):
+    if not (motion.by_law and positions.cycle and positions.steps < FEWEST and motion.inputs):
         return motion, forces
     steps = positions.steps * ceil(FEWEST / positions.steps)
     over = over_cycle(motion.mechanism, steps, endpoint=positions.repeated)
@@ -130,7 +130,7 @@ class Resolver(Reach):
 
 
 def _between(motion: Motion) -> Between | None:
-    if not motion.mechanism.drivers:
+    if not (motion.by_law and motion.mechanism.drivers):
         return None
     try:
         return Between(motion)

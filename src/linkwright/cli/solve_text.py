@@ -50,6 +50,18 @@ def report(solved: Solved, options: Options, session: Session) -> list[str | Tex
     return lines
 
 
+def course_lines(solved: Solved, options: Options, session: Session) -> list[str | Text]:
+    """Lines of the table, of the largest forces and of the checks."""
+    lines: list[str | Text] = []
+    for paragraph in (
+        *_table(solved, options, session),
+        _extremes(solved, session.translate, degrees=not options.si),
+        _checks(solved, session.translate),
+    ):
+        lines += ["", *paragraph] if lines and paragraph else paragraph
+    return lines
+
+
 def worked_pages(solved: Solved, options: Options, session: Session) -> list[Worked]:
     """The worked solution of the positions that were named, or of the first one."""
     from linkwright.worked_solutions.solution import worked

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,9 +17,11 @@ from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.integration import Piece
 from linkwright.dynamics.samples import Samples
 from linkwright.errors import RequestError
+from linkwright.formula.trace import Scalar
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.positions import Positions
 from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.solver import in_words
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import Message, _, pgettext
 
@@ -54,6 +57,7 @@ class Happening:
 class RunMotion(Motion):
     """A motion whose coordinates are those of a run: all outputs are found from the equation of motion."""
 
+    by_law: ClassVar[bool] = False
     samples: Samples
 
     @classmethod
@@ -69,7 +73,7 @@ class RunMotion(Motion):
         return found
 
     def evaluate(self, names: tuple[str, ...]) -> Floats:
-        return self.samples.rows(names, forces=False)
+        return self.samples.rows(names, forces=any(map(in_words, names)))
 
 
 class RunForces(Forces):
@@ -86,6 +90,10 @@ class RunForces(Forces):
     def evaluate(self, names: tuple[str, ...]) -> Floats:
         assert isinstance(self.motion, RunMotion)
         return self.motion.samples.rows(names, forces=True)
+
+    def evaluate_traced(self, outputs: dict[str, Scalar]) -> Floats:
+        assert isinstance(self.motion, RunMotion)
+        return self.motion.samples.values(outputs)
 
 
 @dataclass(eq=False)

@@ -14,6 +14,7 @@ from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.integration import Piece
 from linkwright.dynamics.stops import contact_name
 from linkwright.dynamics.switches import switch_name
+from linkwright.formula.trace import Scalar
 
 
 @dataclass
@@ -48,6 +49,10 @@ class Samples:
     def rows(self, names: Sequence[str], *, forces: bool) -> Floats:
         """Rows of the motion, or of it and its forces, by name (see ``core.outputs``), (names, n)."""
         return np.concatenate([part.rows(names, forces=forces) for part in self.parts], axis=1)
+
+    def values(self, outputs: Mapping[str, Scalar]) -> Floats:
+        """Values of the trace of motion and forces by any names, (outputs, n)."""
+        return np.concatenate([part.values(outputs) for part in self.parts], axis=1)
 
     def outputs(self, names: Sequence[str]) -> Floats:
         """Outputs of the equation of motion by name, (names, n)."""
@@ -117,6 +122,11 @@ class Part:
     def rows(self, names: Sequence[str], *, forces: bool) -> Floats:
         """As :meth:`Samples.rows`: forces where something sticks lie between those of slipping either way."""
         program = self.equation.row_program(names, forces=forces)
+        return self._between(lambda given: self.equation.run(program, given, len(self.time)))
+
+    def values(self, outputs: Mapping[str, Scalar]) -> Floats:
+        """As :meth:`Samples.values`."""
+        program = self.equation.value_program(outputs)
         return self._between(lambda given: self.equation.run(program, given, len(self.time)))
 
     def outputs(self, names: Sequence[str]) -> Floats:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from linkwright.formula.trace import Scalar
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.positions import Positions
 from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.solver import in_words
 
 #: Inputs of the equation's programs by name, (n,) each or one number.
 Given = Mapping[str, Floats | float]
@@ -93,11 +95,13 @@ def together(found: Sequence[FoundStates]) -> FoundStates:
 class FoundMotion(Motion):
     """The motion at states that were found; see :class:`linkwright.Motion`."""
 
+    by_law: ClassVar[bool] = False
     found: FoundStates = field(kw_only=True)
 
     def evaluate(self, names: tuple[str, ...]) -> Floats:
-        """Outputs by name, (names, n); NaN where a position was not reached."""
-        values = self.found.motion_rows(names)
+        """Outputs by name, (names, n), in the user's words as well; NaN where a position was not reached."""
+        rows = self.found.force_rows if any(map(in_words, names)) else self.found.motion_rows
+        values = rows(names)
         if not self.ok.all():
             values[:, ~self.ok] = np.nan
         return values

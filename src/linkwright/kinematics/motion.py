@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 import numpy as np
 
@@ -183,6 +183,8 @@ class Motion(PlotMixin):
     positions between which and the next ones something cannot be passed.
     """
 
+    #: Whether drivers' laws say its positions, so that others between them can be solved.
+    by_law: ClassVar[bool] = True
     solver: MotionSolver
     design: Design
     positions: Positions

@@ -100,9 +100,10 @@ class ForceChecks:
                     motion,
                 )
 
-    def require_balance(self, gap: Floats, rows: Rows, motion: Motion) -> None:
-        """Raises SelfCheckError where the gap of the links' balance, (n,) N, is more than rounding."""
-        largest = self._largest(self._parts(rows)[0])
+    def require_balance(self, gap: Floats, rows: Rows, motion: Motion, applied: Floats | float = 0.0) -> None:
+        """Raises SelfCheckError where the gap of the links' balance, (n,) N, is more than rounding; ``applied``: the
+        largest of the loads, (n,) N, where no driver has to supply what they need."""
+        largest = np.maximum(self._largest(self._parts(rows)[0]), applied)
         with np.errstate(all="ignore"):
             if (gap > LIMIT * largest).any():
                 _differ(

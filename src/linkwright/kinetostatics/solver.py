@@ -113,6 +113,11 @@ def words_name(words: str) -> str:
     return _WORDS + words
 
 
+def in_words(name: str) -> bool:
+    """Whether a name is one of these."""
+    return name.startswith(_WORDS)
+
+
 def caused_name(field: str) -> str:
     """The name under which programs know the friction that the joint forces cause, by its field."""
     return _CAUSED + field

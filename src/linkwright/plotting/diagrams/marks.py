@@ -66,7 +66,7 @@ class PhaseMark:
 
 def limit_marks(source: PlotInput, output: Output | None) -> list[LimitMark]:
     """Limit positions of an output; none for points, or where the motion follows no law in time."""
-    if output is None or output.is_point:
+    if output is None or output.is_point or not source.motion.by_law:
         return []
     try:
         found = limit_positions(source.motion, output)
@@ -90,7 +90,9 @@ def phase_marks(source: PlotInput, limits: list[LimitMark]) -> list[PhaseMark]:
 
 def acting(source: PlotInput) -> dict[str, np.ndarray[tuple[int], np.dtype[np.bool_]]]:
     """Of every load with a phase: at which positions it acts, up to the cycle's end."""
-    found = {}
+    found: dict[str, np.ndarray[tuple[int], np.dtype[np.bool_]]] = {}
+    if not source.motion.by_law:
+        return found
     signals = MotionSignals(source.motion)
     for name, load in source.mechanism.loads.items():
         if isinstance(load.magnitude.phase, Always):

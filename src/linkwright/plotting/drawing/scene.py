@@ -273,13 +273,15 @@ def frame_indices(motion: Motion, frames: int) -> list[int]:
     """Positions of one cycle on the screen, the first repeated at the end.
 
     A closed cycle goes round; an open one, or one with positions that were not reached, goes to and fro over the
-    longest stretch that was.
+    longest stretch that was; motion under forces goes forth only.
     """
     start, stop = _longest_stretch(motion.ok)
     count = stop - start
     if motion.positions.closed and count == motion.steps:
         chosen = np.unique(np.linspace(0, count, min(frames, count) + 1).round().astype(int)) % count
         return [int(k) for k in chosen]
+    if not motion.by_law:
+        return [int(k) for k in np.unique(np.linspace(start, stop - 1, min(frames, count)).round())]
     way = np.unique(np.linspace(start, stop - 1, min(max(frames // 2, 2), count)).round().astype(int)).tolist()
     there_and_back = [*way, *way[-2::-1]]
     return there_and_back if len(there_and_back) > 1 else [start, start]
@@ -344,6 +346,8 @@ def _half_turn(machine: DrawnMechanism, link: str, run: list[int]) -> Floats:
 def usual_seconds(motion: Motion) -> float:
     """The true time of a cycle where an eye can follow it, else the nearest such time, within 2 to 6 s."""
     times = motion.time
+    if not motion.by_law:
+        return float(np.clip(times[-1] - times[0], 0.05, 3600.0))
     span = motion.positions.period or 2.0 * abs(float(times[-1] - times[0]))
     return float(np.clip(span, 2.0, 6.0))
 
