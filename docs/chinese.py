@@ -1,6 +1,6 @@
-"""Chinese translations of docstrings on generated pages: kinds of loads, public names."""
+"""Chinese translations of docstrings on generated pages: kinds of loads and actuators, public names."""
 
-#: Kinds of loads, by their docstrings.
+#: Kinds of loads and actuators, by their docstrings.
 LOADS = {
     "A viscous damper between two points: tension F = c·dL/dt, in N, positive where it pulls its ends together.": "两点之间的粘性阻尼器：拉力 F = c·dL/dt，单位 N，把两端拉近时为正。",
     "A force on the link ``on`` at its point ``at``, in N: F = magnitude · unit vector of its direction.": "作用在构件 ``on`` 的点 ``at`` 上的力，单位 N：F = 大小 · 方向的单位向量。",
@@ -10,6 +10,14 @@ LOADS = {
     "A torque M on the link ``on``, N·m, counter-clockwise positive, and -M on the link ``against``.": "作用在构件 ``on`` 上的力矩 M，单位 N·m，逆时针为正；构件 ``against`` 受 -M。",
     "A viscous torsion damper between links [a, b]: torque on b is M = -c·(ω_b - ω_a), in N·m, and -M on a.": "构件 [a, b] 之间的扭转阻尼器：b 受 M = -c·(ω_b - ω_a)，单位 N·m，a 受 -M。",
     "A torsion spring between links [a, b]: torque on b is M = -(M0 + k·(φ - φ0)), in N·m, and -M on a.": "构件 [a, b] 之间的扭簧：b 受 M = -(M0 + k·(φ - φ0))，单位 N·m，a 受 -M。",
+    "A brake of constant friction (Coulomb): ``torque`` (N·m) against the rotation of ``on`` relative to ``against``, or ``force`` (N) against the sliding along a guide or the motion of two points from each other.": "摩擦恒定的制动器（库仑摩擦）：``torque``（N·m）阻碍 ``on`` 相对 ``against`` 的转动，或 ``force``（N）阻碍沿导路的滑动或两点的相对运动。",
+    "A constant ``torque`` (N·m) on a link, or a constant ``force`` (N) along a guide or between two points.": "作用在构件上的恒定力矩 ``torque``（N·m），或沿导路、两点之间的恒力 ``force``（N）。",
+    "A motor, an engine or a turbine by points of its ``torque`` (N·m) over its ``speed`` (rad/s).": "由 ``torque``（N·m）随 ``speed``（rad/s）变化的各点给出的电动机、内燃机或涡轮机。",
+    "A cylinder between two points, or along a guide: it pushes with the force F, in N, positive where it extends.": "两点之间或沿导路的液压缸（气缸）：以力 F（N）推动，伸出为正。",
+    "A direct-current motor: T = k·I with the current I = (U - k·ω)/R, at most ``current``, in N·m.": "直流电动机：T = k·I，单位 N·m，电流 I = (U - k·ω)/R，不超过 ``current``。",
+    "A flywheel of the moment of ``inertia`` J (kg·m²) on a link, or one that turns ``ratio`` i times as fast, on the frame: its torque on the link is -i²·J·α, in N·m.": "装在构件上、转动惯量 ``inertia`` 为 J（kg·m²）的飞轮，或装在机架上、转速为构件 ``ratio`` i 倍的飞轮：它作用于构件的力矩为 -i²·J·α，单位 N·m。",
+    "An induction motor on the mains, by Kloss' formula: T = 2·Tk/(s/sk + sk/s), in N·m.": "接于电网的异步电动机，按克洛斯公式：T = 2·Tk/(s/sk + sk/s)，单位 N·m。",
+    "A servo motor that holds its ``speed`` (rad/s) within its limits: T = gain·(speed - ω), at most ±limit, in N·m.": "在其极限之内保持转速 ``speed``（rad/s）的伺服电动机：T = gain·(speed - ω)，不超过 ±极限，单位 N·m。",
 }
 #: Public names.
 NAMES = {

@@ -7,7 +7,9 @@ A kind is one file with one frozen dataclass, registered under the word of its k
     class Brake(AlongCoordinate):
         torque: float = base.quantity("torque", minimum=0, doc="…")
 
-An actuator is a load: its ``wrenches`` are traced with those of the loads. Reading with all findings, JSON Schema,
+An actuator is a load: its ``wrenches`` are traced with those of the loads. What switches it is a plain
+``select(a < b, …)`` with a - b continuous in the state (the power, say, and not another selection by the sign of a
+rate), since runs find the instant from the zero of that. Reading with all findings, JSON Schema,
 addresses of dimensions (``actuators.NAME.FIELD``) and writing follow from the declared fields.
 """
 

@@ -29,7 +29,7 @@ class InductionMotor(Motor):
     breakdown slip the difference grows as ((s - sk)/(1 - sk))². ``star_until``: up to this time it is connected in
     star, with a third of the torque (star-delta start).
 
-    Source: Kloss, Drehmoment und Schlüpfung des Drehstrommotors, Archiv für Elektrotechnik 5 (1916), 59–87.
+    Source: Kloss, Drehmoment und Schlüpfung des Drehstrommotors, Arch. f. Elektrotechnik 5 (1916), 59–87.
     """
 
     power: float = base.quantity("power", above=0, doc=_("rated power"))

@@ -96,7 +96,7 @@ class Motor(AlongCoordinate):
         torque = self.within_times(site, self.torque(site, speed))
         effort = sense * i * torque
         if self.efficiency is not None or self.self_locking:
-            driving = select(speed > 0.0, torque, -torque) > 0.0
+            driving = torque * speed > 0.0
             if self.efficiency is not None:
                 eta = site.dimension("efficiency")
                 effort = effort * select(driving, eta, 1.0 / eta)

@@ -58,8 +58,7 @@ class ServoMotor(Motor):
         limit, largest = self._limit(site, speed), site.dimension("largest_speed")
         wanted = site.dimension("gain") * (self._wanted(site) - speed)
         found = minimum(maximum(wanted, -limit), limit)
-        driving = select(speed > 0.0, found, -found) > 0.0
-        return select(absolute(speed) > largest, select(driving, 0.0, found), found)
+        return select(absolute(speed) > largest, select(found * speed > 0.0, 0.0, found), found)
 
     def _limit(self, site: Site, speed: Scalar) -> Scalar:
         """The torque that it has at a speed."""
