@@ -183,7 +183,7 @@ class Stepper:
             begin, end = low, high
             if of(low) <= 0.0:
                 begin, end = _positive(of, low, high)
-            times[number] = brentq(of, begin, end, xtol=1e-15, rtol=8.9e-16) if begin < end else begin
+            times[number] = _past(of, begin, end) if begin < end else begin
         time = min(times.values())
         close = 4e-15 * max(abs(time), high - low) + 1e-15
         every = [*watched, *(Watched("end", k) for k in range(len(self.ends(time, dense(time)))))]
@@ -200,3 +200,12 @@ def _positive(value: Callable[[float], float], low: float, high: float) -> tuple
             return time, end
         end = time
     return low, low
+
+
+def _past(value: Callable[[float], float], low: float, high: float) -> float:
+    """The first time, to rounding, at which a value is no longer positive; it may jump there."""
+    time = float(brentq(value, low, high, xtol=1e-15, rtol=8.9e-16))
+    step = float(np.spacing(time))
+    while time < high and value(time) > 0.0:
+        time, step = min(time + step, high), 2.0 * step
+    return time

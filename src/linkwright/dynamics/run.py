@@ -262,7 +262,13 @@ class _Course:
                 pass
         except KeyboardInterrupt:
             note = _("interrupted at {time:.6g} s", code="dynamics.interrupted", time=self.t)
-        if self.end.until and self.t >= self.end.time:
+        if self.end.until == "steady" and self.happened and self.happened[-1].kind == "rest":
+            note = _(
+                "it comes to rest at {where} instead of running steadily: forces hold it there",
+                code="dynamics.stalls",
+                where=self._where(self.y),
+            )
+        elif self.end.until and self.t >= self.end.time:
             note = _(
                 "not {state} after {time:.6g} s; give at_most a longer time",
                 code="dynamics.not_until",
@@ -277,7 +283,7 @@ class _Course:
         system = self.system
         out = system.evaluate(system.full, self.t, self.y).copy()
         self._set_sides(out, range(len(system.surfaces)))
-        self._decide(self._touching(out))
+        self._settle(self._touching(out))
         self.kinetic = self._kinetic()
 
     def _kinetic(self) -> float:
@@ -304,6 +310,27 @@ class _Course:
                 found.append(number)
         return found
 
+    def _settle(self, touch: Iterable[int], slips: Mapping[int, int] | None = None) -> None:
+        """What holds from here on: as forces begin to go another way, phases of loads may, and other forces then."""
+        touching = list(touch)
+        for _round in range(AT_ONCE):
+            self._decide(touching, slips)
+            if not self._moved_over():
+                return
+
+    def _moved_over(self) -> bool:
+        """Sets the sides of surfaces that do not go by rates as their gaps are now; whether one has changed."""
+        system = self.system
+        out = system.evaluate(system.full, self.t, self.y).copy()
+        gaps, holding = system.gaps(out), system.holding.copy()
+        for index, surface in enumerate(system.surfaces):
+            if not surface.by_rate and abs(gaps[index]) > 1e-12 * self._scale(index):
+                holding.sides[index] = 1.0 if gaps[index] > 0.0 else -1.0
+        if (holding.sides == system.holding.sides).all():
+            return False
+        system.hold(holding)
+        return True
+
     def _decide(self, touch: Iterable[int], slips: Mapping[int, int] | None = None) -> None:
         """What sticks, slips and touches from here on; the rates of what holds become exactly zero."""
         system, n = self.system, len(self.equation.free)
@@ -317,7 +344,7 @@ class _Course:
         still += [out[system.place[f"stop_rate:{system.stops[number]}"]] for number in holding.touch]
         self.y[n : 2 * n] -= np.linalg.lstsq(np.array(by), np.array(still), rcond=None)[0]
         self.held = int(np.linalg.matrix_rank(np.array(by)))
-        if self.held == n and not system.prescribed:
+        if self.held == n and np.abs(self.y[n : 2 * n]).max() <= ZERO * system.pace.max(initial=0.0):
             self.y[n : 2 * n] = 0.0
 
     def _piece(self) -> bool:
@@ -392,12 +419,12 @@ class _Course:
             if each.kind == "slip":
                 index, _sign = system.holding.stick[each.number][0]
                 slips[index] = -1 if each.sense > 0.0 else 1
-        self._decide(touch, slips)
+        self._settle(touch, slips)
         for kind, now, then in (("sticks", system.holding, standing), ("slips", standing, system.holding)):
             names = dict.fromkeys(owner for owner in self._owners(now) if owner not in self._owners(then))
             if names:
                 self._note(kind, ", ".join(names))
-        if self.end.until == "rest" and self._resting():
+        if self.end.until and self._resting():
             self._note("rest", "")
             self.pieces.append(Piece.resting(system, self.t, self.y))
             return False
@@ -436,7 +463,7 @@ class _Course:
         system.hold(holding)
         for owner in switched:
             self._note("switch", owner)
-        if n == 1 and any(k in zero for k in crossed):
+        if n == 1 and any(k in zero for k in crossed) and abs(self.y[n]) <= ZERO * system.pace[0]:
             self.y[n] = 0.0
             self._note("reversal", "")
         gaps = system.gaps(out)
