@@ -27,10 +27,12 @@ loads:
   loss: {kind: torsion_damper, links: [frame, crank], damping: 0.3 N·m·s/rad}
 """
 VARIED = ("loads.motor.magnitude", "coupler.mass")
-IN_LOOP, LANES = "compiled loop, one motion, with all of the loop", "compiled loop, eight motions at once"
-BARE, FOR_SCIPY, NUMPY_ROUTE = "one call from Python", "f(t, y) as SciPy calls it", "without a compiler"
-TOGETHER, ALONE = "compiled loop, all designs in one call", "compiled loop, one design after the other"
-SCIPY = "SciPy's DOP853 on compiled right-hand sides, one after the other"
+IN_LOOP = "right-hand side with its share of the compiled loop, one motion"
+LANES = "the same, eight motions at once"
+BARE, FOR_SCIPY = "right-hand side, one call from Python", "right-hand side, f(t, y) as SciPy calls it"
+NUMPY_ROUTE = "right-hand side without a compiler"
+TOGETHER, ALONE = "run-ups of all designs in one call", "run-ups in the compiled loop, one after the other"
+SCIPY = "run-ups by SciPy's DOP853 on compiled right-hand sides"
 END, TOLERANCE, START = 2.0, 1e-9, (0.3, 1.0)
 _EACH = 200
 
