@@ -326,7 +326,7 @@ def test_refusals() -> None:
 
 
 def test_a_lid_between_stops() -> None:
-    """Shut its weight, open its strut pushes it against a stop, with the moments by hand; between it does not stay."""
+    """Stops hold it shut and open, with the moments by hand; between them it balances but does not stay."""
     lid = lw.load("gallery:lid_on_gas_strut")
 
     def moment(q: float) -> float:
