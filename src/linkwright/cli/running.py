@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.cli.errors import NOT_TOGETHER, UsageError
 from linkwright.cli.files import atomic_write, read_model, write_result
 from linkwright.cli.options import Options
 from linkwright.cli.pictures import names
@@ -63,6 +64,27 @@ def run_alone(options: Options, session: Session) -> int:
             session.show(*_course(text, findings, options, session))
         session.show_written(options.output, options.plot, options.animate, spaced=True)
     return int(found.note is not None)
+
+
+def run_many(options: Options, session: Session) -> int:
+    """Runs many designs side by side; 1 where some do not run to their end."""
+    from linkwright.designs.ranges import grid
+    from linkwright.designs.runs_of_designs import run_designs
+    from linkwright.designs.varied_dimensions import varied_ranges
+
+    for name in ("prescribed", "stiff", "columns", "points", "steps"):
+        if getattr(options, name):
+            raise UsageError(NOT_TOGETHER.format(name="--vary", other=f"--{name}"))
+    mechanism, _findings = read_model(options.file, session)
+    settings = conditions(mechanism, options)
+    if options.tolerance is not None:
+        settings["tolerance"] = options.tolerance
+    columns = grid(varied_ranges(mechanism, options.vary, sampled=False))
+    with progress(session, _("designs")) as report:
+        found = run_designs(mechanism, columns, progress=report, **settings)
+    write_result(found, options, session)
+    session.show_result(found, options.output)
+    return int(not found.ok.all())
 
 
 def _course(text: RunText, findings: list[Finding], options: Options, session: Session) -> list[Any]:
