@@ -15,16 +15,12 @@ from linkwright.cli.positions import duration, one_input, one_speed
 from linkwright.cli.session import Session, progress, styled_lines
 from linkwright.cli.solve_text import course_lines
 from linkwright.cli.solving import FINE, Solved
-from linkwright.core.arguments import CURVE_STEPS
 from linkwright.dynamics.run import run
 from linkwright.dynamics.run_text import STEPS, RunText
 from linkwright.errors import Finding
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _
 from linkwright.words.message import in_language
-
-#: Pictures per second of a moving drawing, and their number at most.
-RATE, MOST_FRAMES = 25, 2000
 
 
 def conditions(mechanism: Mechanism, options: Options) -> dict[str, Any]:
@@ -105,8 +101,7 @@ def _draw(text: RunText, options: Options, session: Session) -> None:
         return
     from linkwright.plotting.diagrams.base import plot
 
-    forces = text.run.joint_forces(CURVE_STEPS)
-    diagram = plot(forces, options.kind, of=options.of, language=session.language)
+    diagram = plot(text.run, options.kind, of=options.of, language=session.language)
     path = Path(options.plot)
     atomic_write(path, diagram.content(path.suffix.lower()), force=options.force)
 
@@ -117,8 +112,6 @@ def _animate(text: RunText, options: Options, session: Session) -> None:
         return
     from linkwright.plotting.animation import animate
 
-    frames = min(max(2, round(RATE * text.run.end)), MOST_FRAMES)
-    motion = text.run.motion(frames)
-    moving = animate(motion, paths=names(options.paths), frames=frames, language=session.language)
+    moving = animate(text.run, paths=names(options.paths), language=session.language)
     with progress(session, _("drawing")) as report:
         moving.save(options.animate, progress=report, force=options.force)
