@@ -95,3 +95,11 @@ def test_andrews_squeezer() -> None:
         assert forces.reaction("E", on=link)[0] == pytest.approx(force, rel=1e-5)
     expected = by_multibody(mechanism, [0.0, andrews.END])
     assert not disagreements(found, expected, within=1e-8, unlike={"direction": 2e-10, "position": 2e-10})
+
+
+def test_links_of_a_triad_are_found_where_the_run_was() -> None:
+    """Long after the start the triad has another position that Newton's method would reach from the end."""
+    mechanism = lw.loads(random_case(96, with_loads=True).text)
+    found = lw.run(mechanism, duration=0.4, tolerance=1e-12)
+    expected = by_multibody(mechanism, [0.0, 0.2, 0.4], rtol=1e-11)
+    assert not disagreements(found, expected)

@@ -36,29 +36,34 @@ class Watched:
 
 @dataclass
 class Piece:
-    """The motion between two events; ``ends`` (steps,) s of its steps."""
+    """The motion between two events; ``ends`` (steps,) s of its steps, ``chains`` (steps,) the chain coordinates of
+    groups without closed form at the ends of steps, near which Newton's method finds those within them."""
 
     system: System
     holding: Holding
     begin: float
     dense: list[Any] = field(default_factory=list)
     ends: list[float] = field(default_factory=list)
+    chains: list[Floats] = field(default_factory=list)
 
     @classmethod
     def resting(cls, system: System, t: float, y: Floats) -> Piece:
         """The moment at which a machine has come to rest."""
         state = y.copy()
-        return cls(system, system.holding.copy(), t, [lambda _time: state], [t])
+        return cls(system, system.holding.copy(), t, [lambda _time: state], [t], [system.chain(t, y)])
 
     @property
     def end(self) -> float:
         """Where it ends, s."""
         return self.ends[-1] if self.ends else self.begin
 
+    def steps(self, times: Floats) -> list[int]:
+        """The numbers of the steps in which times are."""
+        return [min(int(step), len(self.ends) - 1) for step in np.searchsorted(self.ends, times)]
+
     def at(self, times: Floats) -> Floats:
         """States (2 n + 1, times)."""
-        which = np.minimum(np.searchsorted(self.ends, times), len(self.ends) - 1)
-        found = [self.dense[k](time) for k, time in zip(which.tolist(), times.tolist(), strict=True)]
+        found = [self.dense[k](time) for k, time in zip(self.steps(times), times.tolist(), strict=True)]
         return np.column_stack(found) if found else np.empty((2 * len(self.system.free) + 1, 0))
 
 
@@ -103,6 +108,7 @@ class Stepper:
                     )
                 )
             dense = solver.dense_output()
+            found.chains.append(system.chain(solver.t, solver.y))
             hit, armed = self._look(system, watched, dense, solver.t_old, solver.t, armed)
             found.dense.append(dense)
             found.ends.append(solver.t if hit is None else hit[0])

@@ -73,7 +73,8 @@ class Part:
         system, n = self.system, len(self.equation.free)
         system.hold(self.piece.holding)
         seconds, held, chains = [], [], []
-        for t, y in zip(self.time.tolist(), self.states.T, strict=True):
+        for t, y, step in zip(self.time.tolist(), self.states.T, self.piece.steps(self.time), strict=True):
+            system.set_states(dict(zip(self.equation.states, self.piece.chains[step].tolist(), strict=True)))
             if system.holding.constrained:
                 found, share = system.constrained(t, y)
             else:
