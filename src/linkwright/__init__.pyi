@@ -56,8 +56,16 @@ from .dynamics.release import Release as Release
 from .dynamics.release import release as release
 from .dynamics.result import Run as Run
 from .dynamics.run import run as run
+from .dynamics.verdicts.braking import Braking as Braking
+from .dynamics.verdicts.braking import braking as braking
+from .dynamics.verdicts.catalogue import Catalogue as Catalogue
+from .dynamics.verdicts.catalogue import read_catalogue as read_catalogue
 from .dynamics.verdicts.drive_margin import DriveMargin as DriveMargin
 from .dynamics.verdicts.drive_margin import drive_margin as drive_margin
+from .dynamics.verdicts.motor_choice import MotorChoice as MotorChoice
+from .dynamics.verdicts.motor_choice import choose_motor as choose_motor
+from .dynamics.verdicts.motor_duty import MotorDuty as MotorDuty
+from .dynamics.verdicts.motor_duty import motor_duty as motor_duty
 from .errors import Finding as Finding
 from .errors import LinkwrightError as LinkwrightError
 from .errors import ModelError as ModelError

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 from linkwright.applied_loads import base
 from linkwright.applied_loads.base import LinkPoint, Load, read_kind
@@ -37,11 +37,13 @@ Report = Callable[[str, str, str], None]
 class Actuator(Load):
     """What acts on a mechanism only where its motion follows from the forces; in a prescribed motion it is left out.
 
+    ``brakes``: whether all that it does is to oppose the motion.
     ``begin``, ``until``: the time, s, from which and up to which it acts (keys ``from`` and ``until``); always
     without.
     """
 
     section: ClassVar[str] = "actuators"
+    brakes: ClassVar[bool] = False
     begin: float | None = base.quantity(
         "time", default=None, key="from", doc=_("time at which it begins to act (default: from the beginning)")
     )
@@ -68,6 +70,10 @@ class Actuator(Load):
                 begin=begin,
             )
             report("until", problem, _("give a time after from"))
+
+    def at_limit(self) -> Self:
+        """The same where all is asked of it that it has: one that is controlled at its limit."""
+        return self
 
     def within_times(self, site: Site, effort: Scalar) -> Scalar:
         """An effort while the actuator acts, zero before and after."""

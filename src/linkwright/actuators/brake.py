@@ -23,6 +23,7 @@ class Brake(AlongCoordinate):
     Source: Norton, Design of Machinery, chapter 10 (dynamics fundamentals).
     """
 
+    brakes: ClassVar[bool] = True
     exactly_one: ClassVar[tuple[tuple[str, ...], ...]] = (*AlongCoordinate.exactly_one, ("torque", "force"))
     torque: float | None = base.quantity("torque", minimum=0, default=None, doc=_("torque of friction"))
     force: float | None = base.quantity("force", minimum=0, default=None, doc=_("force of friction"))

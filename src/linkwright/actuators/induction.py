@@ -8,7 +8,7 @@ from math import sqrt
 from typing import Any
 
 from linkwright.actuators.base import ACTUATORS, Report
-from linkwright.actuators.motor import Motor
+from linkwright.actuators.motor import Motor, Rating
 from linkwright.applied_loads import base
 from linkwright.applied_loads.site import Site
 from linkwright.formula import trace
@@ -57,6 +57,11 @@ class InductionMotor(Motor):
                 slip=(1.0 - speed / synchronous) * (m + sqrt(m * m - 1.0)),
             )
             report("starting", problem, _("remove it, or check speed and pull_out"))
+
+    @property
+    def rating(self) -> Rating:
+        rated = self.power / self.speed
+        return Rating(rated, self.pull_out * rated, None, self.speed)
 
     def torque(self, site: Site, speed: Scalar) -> Scalar:
         rated, ratio = site.dimension("power") / site.dimension("speed"), site.dimension("pull_out")

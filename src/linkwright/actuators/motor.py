@@ -6,7 +6,7 @@ import math
 from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, ClassVar, Self, cast
 
 from linkwright.actuators.base import AlongCoordinate, Report
 from linkwright.applied_loads import base
@@ -22,6 +22,22 @@ if TYPE_CHECKING:
 flag = base.declares(Flag)
 
 
+@dataclass(frozen=True)
+class Rating:
+    """What a motor may be asked for, None where that is not known: ``continuous`` torque (RMS, N·m) and ``peak``
+    torque, ``largest_speed`` and the ``rated_speed``, rad/s, at which it is meant to run."""
+
+    continuous: float | None = None
+    peak: float | None = None
+    largest_speed: float | None = None
+    rated_speed: float | None = None
+
+    @property
+    def power(self) -> float:
+        """Continuous torque times the speed at which it is meant to run, W; 0 where they are not known."""
+        return (self.continuous or 0.0) * (self.rated_speed or self.largest_speed or 0.0)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Motor(AlongCoordinate):
     """A motor that turns a link through a gear, or that pushes along a guide or between two points by a screw or a
@@ -33,8 +49,11 @@ class Motor(AlongCoordinate):
 
     With the motor's torque T the torque on the link is i·T·η where power flows to the machine, i·T/η where it flows
     back (``efficiency`` η); the rotor's ``inertia`` J adds i²·J to the link's. A ``self_locking`` gear (a worm) lets
-    the motor drive only: wherever the motor does not, it holds with the torque ``holding``.
+    the motor drive only: wherever the motor does not, it holds with the torque ``holding``. ``controlled``: whether a
+    controller decides how much of its torque it gives.
     """
+
+    controlled: ClassVar[bool] = False
 
     ratio: float | None = base.quantity(
         "dimensionless", nonzero=True, default=None, doc=_("speed of the motor over that of the link (default 1)")
@@ -75,6 +94,16 @@ class Motor(AlongCoordinate):
         if values.get("between") is not None and values.get("inertia"):
             problem = _("a rotor's inertia needs a link or a guide", code="actuators.inertia_between")
             report("inertia", problem, _("write on: LINK or along: GUIDE instead of between, or remove it"))
+
+    @property
+    def rating(self) -> Rating:
+        """What it may be asked for by its own data."""
+        return Rating()
+
+    def at_speed(self, speed: float, stiffness: float) -> Self:
+        """The same with its controller, if it has one, set to a speed (rad/s), with a gain of ``stiffness`` times its
+        peak torque over its largest speed."""
+        return self
 
     @abstractmethod
     def torque(self, site: Site, speed: Scalar) -> Scalar:

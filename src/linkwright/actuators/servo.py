@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, Self
 
 from linkwright.actuators.base import ACTUATORS, Report
-from linkwright.actuators.motor import Motor
+from linkwright.actuators.motor import Motor, Rating
 from linkwright.applied_loads import base
 from linkwright.applied_loads.site import Site
 from linkwright.formula.trace import Scalar, absolute, maximum, minimum, select
@@ -27,6 +27,7 @@ class ServoMotor(Motor):
     Source: Biagiotti, Melchiorri, Trajectory Planning for Automatic Machines and Robots, chapter 7.
     """
 
+    controlled: ClassVar[bool] = True
     continuous: float = base.quantity("torque", above=0, doc=_("torque that it gives all the time"))
     peak: float = base.quantity("torque", above=0, doc=_("torque that it gives for a short time"))
     largest_speed: float = base.quantity("angular_velocity", above=0, doc=_("largest speed of the motor"))
@@ -53,6 +54,17 @@ class ServoMotor(Motor):
         if (values.get("knee") or 0.0) >= values["largest_speed"]:
             problem = _("the knee is not below the largest speed", code="actuators.knee_beyond")
             report("knee", problem, _("give a smaller speed, or remove it"))
+
+    @property
+    def rating(self) -> Rating:
+        return Rating(self.continuous, self.peak, self.largest_speed)
+
+    def at_limit(self) -> Self:
+        stiff = 1e9 * self.peak / self.largest_speed
+        return replace(self, speed=self.largest_speed, gain=stiff, ramp=None)
+
+    def at_speed(self, speed: float, stiffness: float) -> Self:
+        return replace(self, speed=speed, gain=stiffness * self.peak / self.largest_speed)
 
     def torque(self, site: Site, speed: Scalar) -> Scalar:
         limit, largest = self._limit(site, speed), site.dimension("largest_speed")

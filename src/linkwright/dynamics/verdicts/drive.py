@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from linkwright.actuators.base import Actuator
 from linkwright.core.arrays import Floats, largest
 from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.dynamics.verdicts.quasi_static import Course, QuasiStatic
@@ -17,6 +18,9 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.words import _
 
+#: Time, s, at which a machine in motion has been switched on for long.
+ALWAYS = 1e6
+
 
 @dataclass(frozen=True)
 class Torques:
@@ -24,11 +28,14 @@ class Torques:
 
     ``time`` s in the cycle, ``input`` the driver's coordinate, rad or m; ``needed`` to move on, NaN where no finite
     effort does; ``available`` from the actuators; ``ideal``: needed without friction; ``returning``: what the driver
-    must hold back with so that the machine does not run backwards (not positive where it stands by itself).
+    must hold back with so that the machine does not run backwards (not positive where it stands by itself); ``rate``
+    and ``second`` of the driver in the sense of its motion.
     """
 
     time: Floats
     input: Floats
+    rate: Floats
+    second: Floats
     needed: Floats
     available: Floats
     ideal: Floats
@@ -63,11 +70,17 @@ class Drive:
 
     @cached_property
     def _all(self) -> QuasiStatic:
-        return QuasiStatic(self.source) if self.driven else self._load
+        return QuasiStatic(replace(self.source, actuators=self._at_limits)) if self.driven else self._load
 
-    def cycle(self, steps: int) -> Floats:
-        """Times of the positions of the cycle that are reached, s."""
-        motion = solve_motion(self.mechanism, steps=steps, failures="mark")
+    @property
+    def _at_limits(self) -> dict[str, Actuator]:
+        """The actuators switched on, those that are controlled at their limits; without brakes that come later."""
+        found = {name: each for name, each in self.source.actuators.items() if not (each.brakes and each.begin)}
+        return {name: replace(each.at_limit(), begin=None, until=None) for name, each in found.items()}
+
+    def cycle(self, steps: int, *, closed: bool = False) -> Floats:
+        """Times of the positions of the cycle that are reached, s; ``closed``: the first one again at the end."""
+        motion = solve_motion(self.mechanism, steps=steps, endpoint=closed, failures="mark")
         return np.asarray(motion.time[motion.ok])
 
     @property
@@ -102,6 +115,8 @@ class Drive:
         return Torques(
             time=reached,
             input=course.places[name],
+            rate=sense * course.rates[name],
+            second=sense * course.seconds[name],
             needed=sense * load.effort[name],
             available=sense * (load.effort[name] - net.effort[name]),
             ideal=sense * load.ideal[name],
@@ -112,11 +127,13 @@ class Drive:
         """At the speeds and accelerations of the cycle; inertia of actuators counts against what they supply."""
         course, reached = self.course(times)
         sense, name = _senses(course.rates[self.name]), self.name
-        load = self._load.running(course)
-        net = self._all.running(course) if self.driven else load
+        load = self._load.running(course, ALWAYS)
+        net = self._all.running(course, ALWAYS) if self.driven else load
         return Torques(
             time=reached,
             input=course.places[name],
+            rate=sense * course.rates[name],
+            second=sense * course.seconds[name],
             needed=sense * load.effort[name],
             available=sense * (load.effort[name] - net.effort[name]),
             ideal=sense * load.ideal[name],

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -442,5 +442,4 @@ def _lowest(
 
 
 def _at(torques: Torques, place: int) -> Torques:
-    rows = (torques.time, torques.input, torques.needed, torques.available, torques.ideal, torques.returning)
-    return Torques(*(row[place : place + 1] for row in rows))
+    return Torques(*(getattr(torques, each.name)[place : place + 1] for each in fields(torques)))

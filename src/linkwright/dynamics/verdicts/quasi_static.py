@@ -105,9 +105,9 @@ class QuasiStatic:
     def _qualities(self) -> Program:
         return self.equation.program(f"quality:{group}" for group in self.equation.groups)
 
-    def running(self, course: Course) -> Efforts:
-        """At the speeds and accelerations of the course."""
-        return self._evaluate(course, self._held(course))
+    def running(self, course: Course, time: float = 0.0) -> Efforts:
+        """At the speeds and accelerations of the course, all at one ``time``, s."""
+        return self._evaluate(course, self._held(course, time), time)
 
     def starting(self, course: Course, senses: Mapping[str, Floats]) -> Efforts:
         """At rest, just before the drivers begin to move in their ``senses``, rad/s or m/s."""
@@ -122,23 +122,23 @@ class QuasiStatic:
         with np.errstate(all="ignore"):
             return np.asarray(self.equation.run(self._qualities, course.inputs(), course.count).min(axis=0))
 
-    def _held(self, course: Course) -> dict[str, Floats]:
+    def _held(self, course: Course, time: float = 0.0) -> dict[str, Floats]:
         """The comparisons by which forces switch, 1 or 0, in agreement with each other."""
         names = self.equation.switches.names
         held: dict[str, Floats] = dict.fromkeys(names, np.zeros(course.count))
         for _round in range(_ROUNDS if names else 0):
             with np.errstate(all="ignore"):
-                gaps = self.equation.run(self._gaps, {**course.inputs(), **held}, course.count)
+                gaps = self.equation.run(self._gaps, {**course.inputs(), **held, "time": time}, course.count)
             again = {name: (row > 0.0).astype(float) for name, row in zip(names, gaps, strict=True)}
             if all(np.array_equal(again[name], held[name]) for name in names):
                 break
             held = again
         return held
 
-    def _evaluate(self, course: Course, held: Mapping[str, Floats]) -> Efforts:
+    def _evaluate(self, course: Course, held: Mapping[str, Floats], time: float = 0.0) -> Efforts:
         program, names = self._program, self.equation.names
         with np.errstate(all="ignore"):
-            rows = self.equation.run(program, {**course.inputs(), **held}, course.count)
+            rows = self.equation.run(program, {**course.inputs(), **held, "time": time}, course.count)
         found = dict(zip(program.output_names, rows, strict=True))
         moves = found["found"] > 0.5 if "found" in found else np.ones(course.count, dtype=bool)
         effort = {name: np.where(moves, found[f"effort:{name}"], np.nan) for name in names}
