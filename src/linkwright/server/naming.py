@@ -26,7 +26,7 @@ POINTS = ("at", "through", "about", "direction", "along", "normal_to", "mass_cen
 
 
 def rename(draft: Draft, action: Mapping[str, Any]) -> None:
-    """Gives a link, point, pair, load or driver another name wherever the text mentions it."""
+    """Gives a link, point, pair, load, actuator, stop or driver another name wherever the text mentions it."""
     what, old, new = request.text(action, "what"), request.name(action, "from"), request.name(action, "to")
     if old == new:
         return
@@ -59,7 +59,17 @@ def names(draft: Draft, what: str) -> list[str]:
 
 
 #: Sections by what they hold.
-KINDS = {"link": "links", "pair": "joints", "load": "loads", "driver": "drivers", "point": "drawing"}
+KINDS = {
+    "link": "links",
+    "pair": "joints",
+    "load": "loads",
+    "actuator": "actuators",
+    "stop": "stops",
+    "driver": "drivers",
+    "point": "drawing",
+}
+#: Sections whose words name links and joints, and points.
+NAMING = ("joints", "loads", "actuators", "stops", "driver", "drivers", "cycle")
 
 
 def change(draft: Draft, what: str, old: str, new: str) -> None:
@@ -123,13 +133,20 @@ def _is_named(what: str, path: tuple[str, ...], text: str, old: str, *, is_key: 
     if is_key:
         if what == "point":
             return inner in ("points", "also", "drawing", "assembly") or path == ("joints",)
+        if what == "driver" and section == "run":
+            return inner in ("at", "speed")
         return path == (KINDS[what],) or (path == ("assembly",) and what == "pair") or inner == KINDS[what]
     if what == "point":
-        return inner in POINTS and (section in ("joints", "loads", "driver", "drivers", "links"))
-    if section not in ("joints", "loads", "driver", "drivers", "cycle"):
+        here = inner == "between" if section == "actuators" else inner in POINTS
+        return here and section in ("joints", "loads", "actuators", "driver", "drivers", "links")
+    if section == "run":
+        return what == "driver" and inner == "prescribed"
+    if section not in NAMING:
         return False
     if what == "link":
-        return inner not in NO_LINKS
+        return inner not in (*NO_LINKS, "side", "interpolation", "beyond")
+    if what == "pair" and path[0] == "actuators":
+        return inner == "along"
     return inner in ("slide", "of", "about", "guide", "drivers", "driver")
 
 

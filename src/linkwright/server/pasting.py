@@ -1,4 +1,4 @@
-"""Copies of links: with their points, and the joints, guides and loads between them, shifted or mirrored."""
+"""Copies of links: with their points, and the joints, loads and actuators between them, shifted or mirrored."""
 
 from __future__ import annotations
 
@@ -82,10 +82,16 @@ class _Copy:
             return f"180 deg - ({text})"
 
     def element(self, entry: MappingNode) -> Plain:
-        """An entry of the joints or loads."""
+        """An entry of the joints, loads or actuators."""
         data: Plain = outlined(entry)
         space = data.get("guide", "frame") == "frame"
         return {key: self._value(key, value, space=space) for key, value in data.items()}
+
+    def actuator(self, entry: MappingNode) -> Plain:
+        """An entry of the actuators: a constant torque turns round in a mirror."""
+        data = self.element(entry)
+        turned = {"torque": self.sign(data["torque"])} if data["kind"] == "constant" and "torque" in data else {}
+        return {**data, **turned}
 
     def _value(self, key: str, value: Any, *, space: bool) -> Any:
         if isinstance(value, list):
@@ -133,6 +139,7 @@ def paste(draft: Draft, action: Mapping[str, Any]) -> None:
     points += [name for name in dict.fromkeys(chosen) if name in shown["fixed"] and name not in points]
     inside = [(key, each) for key, each in source.section("joints") or () if _within(each, source, links)]
     loads = [each for _unused, each in source.section("loads") or () if _within(each, source, links)]
+    acting = [each for _unused, each in source.section("actuators") or () if _within(each, source, links)]
     for _unused, joint in inside:
         through = word(joint, "through")
         if word(joint, "guide") == "frame" and through not in points:
@@ -149,6 +156,9 @@ def paste(draft: Draft, action: Mapping[str, Any]) -> None:
         draft.put("joints", *_joint(draft, copy, key, copy.element(joint)))
     for load in loads:
         draft.put_new("loads", word(load, "kind") or "load", copy.element(load))
+    for actuator in acting:
+        if actuator.get("along") is None:
+            draft.put_new("actuators", word(actuator, "kind") or "actuator", copy.actuator(actuator))
     for old, new in copy.points.items():
         how = word(source.section("assembly") or MappingNode(0, 0, 0, 0), old)
         if how:

@@ -1,9 +1,10 @@
-"""Where a text names a link or a point: joints, loads, drives, the link itself."""
+"""Where a text names a link or a point: joints, loads, actuators, drives, the link itself."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from linkwright.actuators.base import ACTUATORS
 from linkwright.applied_loads.base import LOADS
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence
@@ -11,7 +12,7 @@ from linkwright.joints.base import JOINTS
 from linkwright.server.draft import Draft
 from linkwright.server.entries import texts, word
 
-#: Keys of joints and loads whose words are no links.
+#: Keys of joints, loads and actuators whose words are no links.
 NO_LINKS = ("kind", "at", "through")
 
 
@@ -25,10 +26,11 @@ def points_of_entry(link: MappingNode) -> Iterator[Scalar]:
 
 
 def references(draft: Draft, link: str, point: str) -> Iterator[tuple[str, str, Scalar]]:
-    """Where joints and loads name a link's point: section, name, word."""
+    """Where joints, loads and actuators name a link's point: section, name, word."""
     kinds: dict[str, dict[str, Mapping[str, object]]] = {
         "joints": {kind: JOINTS[kind].fields() for kind in JOINTS},
         "loads": {kind: LOADS[kind].fields() for kind in LOADS},
+        "actuators": {kind: ACTUATORS[kind].fields() for kind in ACTUATORS},
     }
     for section, known in kinds.items():
         for name, entry in draft.section(section) or ():

@@ -21,11 +21,15 @@ NEEDED = _("{name} needs the fixed point {point}; remove {name} first", code="st
 
 def remove(draft: Draft, action: Mapping[str, Any]) -> str:
     """Takes a link, a joint or a load out, and gives a sentence about the rest; or several items without a word."""
+    said = ""
     if "items" in action:
         _remove_items(draft, request.mappings(action, "items"))
-        return ""
-    removed = _REMOVED.get(request.text(action, "what")) or request.refuse("what", "name")
-    return removed(draft, request.name(action, "name"))
+    else:
+        removed = _REMOVED.get(request.text(action, "what")) or request.refuse("what", "name")
+        said = removed(draft, request.name(action, "name"))
+    _remove_lost_stops(draft)
+    _keep_run(draft)
+    return said
 
 
 def _remove_items(draft: Draft, items: list[dict[str, Any]]) -> None:
@@ -84,6 +88,10 @@ def _load(draft: Draft, name: str) -> str:
         raise LinkwrightError(_("there is no load {name!r} in the text", code="studio.no_load", name=name))
     draft.take_out("loads", name)
     return _("Load {name} removed.", code="studio.load_gone", name=name)
+
+
+def _entry(section: str) -> Callable[[Draft, str], object]:
+    return lambda draft, name: draft.take_out(section, name)
 
 
 def _link(draft: Draft, name: str) -> str:
@@ -227,10 +235,10 @@ def _drawn(link: MappingNode) -> bool:
 
 
 def _remove_what_names(draft: Draft, gone: set[str]) -> None:
-    """Joints, loads and drivers of links and joints that are gone, words about pins of no two links, and points of
-    the frame for their guides alone."""
+    """Joints, loads, actuators, stops and drivers of links and joints that are gone, words about pins of no two
+    links, and points of the frame for their guides alone."""
     guided = set()
-    for section in ("joints", "loads", "drivers"):
+    for section in ("joints", "loads", "actuators", "stops", "drivers"):
         for key, node in list(draft.section(section) or ()):
             if gone & set(named(node)):
                 draft.take_out(section, key)
@@ -253,6 +261,44 @@ def _remove_what_names(draft: Draft, gone: set[str]) -> None:
             take_fixed(draft, point)
 
 
+def _remove_lost_stops(draft: Draft) -> None:
+    """Takes end stops out whose output is the coordinate of a point that is gone."""
+    shown = draft.picture()
+    points = {*shown["fixed"], *(point for ends in shown["links"].values() for point in ends)}
+    for key, node in list(draft.section("stops") or ()):
+        way, _unused, axis = word(node, "of").rpartition(".") if isinstance(node, MappingNode) else ("", "", "")
+        point = way.removesuffix(".position").rpartition(".")[2]
+        if axis in ("x", "y") and point not in points:
+            draft.take_out("stops", key)
+
+
+def _keep_run(draft: Draft) -> None:
+    """Takes what a run says of drivers that are gone out, and all of it where there is no driver."""
+    if (run := draft.section("run")) is None:
+        return
+    several = [name for name, _unused in draft.section("drivers") or ()]
+    names = {*several, *(["driver"] if draft.root.get("driver") is not None else [])}
+    if not names:
+        draft.cut_top("run")
+        return
+    for key in ("at", "speed"):
+        table = run.get(key)
+        for name in [each for each, _unused in table] if isinstance(table, MappingNode) else ():
+            if name not in names and (found := draft.section("run")) is not None:
+                _cut_within(draft, found, key, name)
+
+
+def _cut_within(draft: Draft, run: MappingNode, key: str, name: str) -> None:
+    """Takes one driver's value out of a key of a run, and the key where it is the last one."""
+    table = run.get(key)
+    if isinstance(table, MappingNode) and len(table.entries) > 1:
+        draft.cut(table, name)
+    elif len(run.entries) > 1:
+        draft.cut(run, key)
+    else:
+        draft.cut_top("run")
+
+
 def _remove_unused(draft: Draft) -> None:
     """Drawn points that no link has."""
     used = {point for points in draft.picture()["links"].values() for point in points}
@@ -273,6 +319,8 @@ def take_fixed(draft: Draft, point: str) -> None:
 
 _ITEMS: dict[str, tuple[Callable[[Draft, str], bool], Callable[[Draft, str], object]]] = {
     "load": (_in("loads"), _load),
+    "actuator": (_in("actuators"), _entry("actuators")),
+    "stop": (_in("stops"), _entry("stops")),
     "driver": (lambda draft, name: draft.root.get("driver") is not None or _in("drivers")(draft, name), _driver),
     "pair": (_in("joints"), _pair),
     "link": (_in("links"), _link),

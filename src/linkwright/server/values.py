@@ -23,7 +23,11 @@ MOST, DEEPEST = 2000, 12
 def put(draft: Draft, action: Mapping[str, Any]) -> None:
     """Writes a value at a path of keys; those that are not there yet are made."""
     path, value = _path(action), _plain(action.get("value"))
-    if path[0] in ("links", "loads") and len(path) > 2 and _follow(draft.root, path[:2]) is None:
+    if (
+        path[0] in ("links", "loads", "actuators", "stops")
+        and len(path) > 2
+        and _follow(draft.root, path[:2]) is None
+    ):
         _no_place(path)
     before = draft.text
     _put(draft, path, tidy(value) if isinstance(value, str) else value)
