@@ -259,8 +259,9 @@ def refuse_moved_positions(mechanism: Mechanism, positions: Positions, columns: 
 
 
 def refuse_moved_limits(mechanism: Mechanism, positions: Positions, addresses: Iterable[str]) -> None:
-    """Refuses dimensions that move the limits between which a driver rocks, as :func:`refuse_moved_positions`."""
-    if mechanism.cycle is not None and mechanism.cycle.rock is not None:
+    """Refuses dimensions that move the limits between which a driver rocks, or the coordinates of drivers that follow
+    a path, as :func:`refuse_moved_positions`."""
+    if mechanism.path is not None or (mechanism.cycle is not None and mechanism.cycle.rock is not None):
         known = {address: mechanism.dimension(address) for address in addresses}
         refuse_moved_positions(
             mechanism, positions, {address: np.array([1.001 * value or 1e-3]) for address, value in known.items()}

@@ -16,6 +16,7 @@ from linkwright.core.expression_tree import Binary, Call, Negative, Node, Number
 from linkwright.drivers.base import Law
 from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.drivers.expression import ExpressionLaw
+from linkwright.drivers.following import Following
 from linkwright.drivers.rocking import Harmonic, Rocking
 from linkwright.drivers.table import TableLaw
 from linkwright.errors import LinkwrightError
@@ -294,6 +295,32 @@ def _table_law(law: TableLaw, begin: float, end: float) -> str:
     text = texts[-1][1]
     for right, piece in reversed(texts[:-1]):
         text = f"(if time < {number(right)} then {piece} else {text})"
+    return text
+
+
+#: Pieces in which the coordinate of a driver that follows a path is written, between two jumps of a derivative.
+#: How far inside a piece, as share of it, the course is taken: at an end a derivative may have another piece's value.
+PATH_PIECES, INSIDE = 120, 1e-9
+
+
+@law_text.register
+def _following(law: Following, begin: float, end: float) -> str:
+    """By quintic pieces that meet coordinate, rate and second derivative at both ends."""
+    breaks = law.breaks(begin, end)
+    nodes = np.union1d(np.linspace(begin, end, PATH_PIECES + 1), breaks[(breaks > begin) & (breaks < end)])
+    text = ""
+    for left, right in reversed(list(pairwise(nodes.tolist()))):
+        h = right - left
+        ends = np.array([left + INSIDE * h, right - INSIDE * h])
+        (q, p), (v, w), (a, b) = (row.tolist() for row in law.coordinate(ends))
+        dq, dv, da = p - (q + v * h + a * h * h / 2), w - (v + a * h), b - a
+        third = (10 * dq - 4 * dv * h + da * h * h / 2) / h**3
+        fourth = (-15 * dq + 7 * dv * h - da * h * h) / h**4
+        fifth = (6 * dq - 3 * dv * h + da * h * h / 2) / h**5
+        x, piece = f"(time - ({number(left)}))", f"({number(fifth)})"
+        for each in (fourth, third, a / 2, v, q):
+            piece = f"(({number(each)}) + {x}*{piece})"
+        text = f"(if time < {number(right)} then {piece} else {text})" if text else piece
     return text
 
 

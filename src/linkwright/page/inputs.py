@@ -74,6 +74,8 @@ def geometry_addresses(mechanism: Mechanism) -> list[str]:
 #: What of a joint places a guide or a link.
 _ANGLES = ("direction", "block_angle", "angle")
 _PLACING = ("offset", *_ANGLES)
+#: What of a link changes forces alone.
+_OF_FORCES = ("mass", "inertia")
 
 
 def dimensions(document: Document, parameters: set[str]) -> list[Dimension]:
@@ -90,8 +92,11 @@ def dimensions(document: Document, parameters: set[str]) -> list[Dimension]:
 
 def _refused(mechanism: Mechanism, address: str) -> bool:
     """Whether a page does not change it: the cycle, a ratio of wheels that changes it too, where a driver starts,
-    speeds of several drivers, numbers of teeth, angles of guides that other guides or racks give."""
+    speeds of several drivers, numbers of teeth, angles of guides that other guides or racks give, and all that would
+    give drivers other courses on a path."""
     owner, _, last = address.rpartition(".")
+    if mechanism.path is not None and (last not in _OF_FORCES or owner not in mechanism.links):
+        return not address.startswith("loads.")
     if owner in mechanism.drivers:
         return last != "speed" or len(mechanism.drivers) > 1 or mechanism.cycle is not None
     joint = mechanism.joints.get(address.partition(".")[0])

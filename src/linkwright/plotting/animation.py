@@ -27,7 +27,7 @@ from linkwright.pictures.labels import Label, Obstacles, place_moving, written
 from linkwright.pictures.picture import Circle, SvgNode
 from linkwright.pictures.svg import group, png
 from linkwright.plotting.diagrams.source import PlotInput
-from linkwright.plotting.drawing.draw import Legend, Names, all_arrows, solved
+from linkwright.plotting.drawing.draw import Legend, Names, all_arrows, followed, solved
 from linkwright.plotting.drawing.loads import load_marks, moving_springs
 from linkwright.plotting.drawing.moving import (
     Panel,
@@ -131,7 +131,7 @@ def animate(
 
     Args:
         source: a motion, or a mechanism whose cycle is solved first.
-        paths: points whose paths are shown, with a dot that runs along.
+        paths: points whose paths are shown, with a dot that runs along; default the one that follows a path.
         velocities, accelerations, forces, reactions_of, centres, size, language: as for ``draw``.
         curves: results drawn below with a cursor that runs with the drawing (``"jaw.angle"``, ``"driver.effort"``, a
             column of ``motion.columns()`` or of the forces').
@@ -165,7 +165,7 @@ def animate(
             )
         )
     machine = source.mechanism if isinstance(source, Motion) else source
-    paths, curves = one_or_more(paths), one_or_more(curves)
+    paths, curves = one_or_more(paths) or followed(machine), one_or_more(curves)
     for name in paths:
         point_key(machine, name)
     motion = source if isinstance(source, Motion) else solve_motion(source, failures="mark")

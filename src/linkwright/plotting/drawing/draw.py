@@ -92,7 +92,7 @@ def draw(
         time: instead, a time (s).
         overlay: positions drawn faded under it; ``"faded:8"`` as many over the motion; ``"limits"`` dashes the
             exact limit positions of the last output, ``"limits:jaw"`` those of a link or a guide.
-        paths: points whose paths over the motion are drawn.
+        paths: points whose paths over the motion are drawn; default the one that follows a path.
         velocities: points whose velocities are drawn; True for all points.
         accelerations: the same for accelerations.
         forces: forces of this motion (True: solve them), drawn as vectors at the joints and loads.
@@ -131,7 +131,7 @@ def draw(
     )
     sketch = MachineSketch(scene, index, shown.index)
     sketch.ghosts(others, style)
-    paths = one_or_more(paths)
+    paths = one_or_more(paths) or followed(motion.mechanism)
     sketch.draw(scene.traces(paths), [scene.trace(name) for name in paths])
     known = _forces_shown(motion, shown, forces)
     arrows = all_arrows(shown.motion, velocities, accelerations, known, reactions_of)
@@ -143,6 +143,11 @@ def draw(
     return sketch.drawing(
         _("Kinematic drawing of {name}", name=in_language(motion.mechanism.name, language)).translate(language), size
     )
+
+
+def followed(mechanism: Mechanism) -> tuple[str, ...]:
+    """The point whose path drivers follow; none in other machines."""
+    return () if mechanism.path is None else (str(mechanism.path.point),)
 
 
 class MachineSketch(Sketch):
