@@ -25,7 +25,7 @@ from typing import Any
 import numpy as np
 from scipy.integrate import DOP853
 from scipy.linalg import qr, solve_triangular
-from tests.reference.adapted_loads import KINDS, Course
+from tests.reference.adapted_loads import KINDS, Course, friction_loads
 from tests.reference.adapter import link_points, starting_position
 from tests.reference.geared import Geared, Row, pressed_forces
 from tests.reference.geared_adapter import driven_system, like
@@ -40,6 +40,8 @@ Loading = Callable[[Motion, Array], list[Wrench]]
 Rotor = tuple[str, str, float]
 #: Singular values of the joints' Jacobian below this share of the largest are taken for zero.
 RANK = 1e-10
+#: How often friction and joint forces are found from each other at most.
+REPEATED = 100
 
 
 @dataclass(frozen=True)
@@ -60,8 +62,7 @@ class FreeMotion:
     @cached_property
     def forces(self) -> Forces:
         """Forces in the joints, from the multipliers; without what the teeth press apart with."""
-        wrenches = self.owner.wrenches(self.motion, self.time)
-        return self.motion.forces([lambda _motion: wrenches])
+        return self.owner.forces(self.motion, self.time)
 
     @cached_property
     def pressed(self) -> tuple[Forces, dict[str, list[Wrench]]]:
@@ -93,6 +94,7 @@ class FreeMultibody:
         self.system = like(self.driven, kept, getattr(self.driven, "rolling", []))
         size = max(map(float, np.abs(self.driven.local).ravel()), default=1.0)
         self.scale = np.tile([1.0, 1.0, 1.0 / (size or 1.0)], len(self.system.bodies))
+        self.rubs = any(getattr(joint, "friction", 0.0) for joint in mechanism.joints.values())
         self._locals = np.array([body.centre for body in self.system.bodies])
         self._mass = np.array([body.mass for body in self.system.bodies])
         self._inertia = np.array([body.inertia for body in self.system.bodies])
@@ -160,6 +162,17 @@ class FreeMultibody:
             found += couple(link, -own * alpha, against)
         return found
 
+    def forces(self, motion: Motion, time: Array) -> Forces:
+        """Forces in the joints of a motion; friction from their own sizes, found again until they agree."""
+        wrenches = self.wrenches(motion, time)
+        found = motion.forces([lambda _motion: wrenches])
+        for _ in range(REPEATED if self.rubs else 0):
+            friction, before = friction_loads(self.mechanism, motion, found).values(), found.lam
+            found = motion.forces([lambda _motion: wrenches, *friction])
+            if np.abs(found.lam - before).max() <= 1e-14 * np.abs(before).max():
+                break
+        return found
+
     def coordinates(self, motion: Motion) -> tuple[Array, Array]:
         """Coordinates and rates of the drivers (n, drivers) as the links are."""
         rows = [int(np.flatnonzero(self.driven.selection[:, k])[0]) for k in range(self.driven.drivers)]
@@ -168,18 +181,31 @@ class FreeMultibody:
         return values, (self.driven.jacobian(motion.q)[:, rows, 3:] @ rates)[..., 0]
 
     def acceleration(self, t: float, q: Array, qd: Array) -> Array:
-        """Accelerations (links and frame, 3) in a state."""
-        system, out = self.system, np.zeros_like(q)
-        jac = system.jacobian(q)
-        motion = Motion(system, q[None], qd[None], out[None], jac[None])
-        applied = np.zeros_like(q)
-        for wrench in self.wrenches(motion, np.array([t]), inertia=False):
+        """Accelerations (links and frame, 3) in a state; friction from the joint forces, until they agree."""
+        motion = Motion(self.system, q[None], qd[None], 0.0 * q[None], self.system.jacobian(q)[None])
+        time, rubbing = np.array([t]), list[Wrench]()
+        applied = self.wrenches(motion, time, inertia=False)
+        found = self._under(motion, applied)
+        for _ in range(REPEATED if self.rubs else 0):
+            before, moved = found, replace(motion, qdd=found[None])
+            known = [*self.wrenches(moved, time), *rubbing]
+            forces = moved.forces([lambda _motion, known=known: known])  # type: ignore[misc]
+            rubs = friction_loads(self.mechanism, moved, forces).values()
+            rubbing = [wrench for load in rubs for wrench in load(moved)]
+            found = self._under(motion, applied + rubbing)
+            if np.abs(found - before).max() <= 1e-13 * np.abs(before).max():
+                break
+        return found
+
+    def _under(self, motion: Motion, wrenches: Sequence[Wrench]) -> Array:
+        """Accelerations in the one state of a motion under forces and torques."""
+        system, q, qd, jac = self.system, motion.q[0], motion.qd[0], motion.jac[0]
+        out, applied = np.zeros_like(q), np.zeros_like(q)
+        for wrench in wrenches:
             k, force = system.index[wrench.body], wrench.force[0]
             arm = wrench.point[0] - q[k, :2]
             applied[k] += *force, wrench.torque[0] + arm[0] * force[1] - arm[1] * force[0]
-        applied -= motion.inertia_terms()[
-            0
-        ]  # with no accelerations: what the turning about the axes' origins asks for
+        applied -= motion.inertia_terms()[0]  # of no accelerations: what turning about the axes' origins asks for
         particular, basis = self._allowed(jac[:, 3:], -system.quadratic(q, qd))
         mass, right = self.masses(q), applied[1:].ravel()
         reduced = basis.T @ mass @ basis

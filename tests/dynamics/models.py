@@ -188,3 +188,26 @@ joints:
 driver: {turn: crank, about: O, speed: 1 rad/s, start: 10 deg}
 gravity: [0, -9.81 m/s²]
 """
+
+#: A shaper with dry pins between moving links, a dry slot that turns, and a dry bed.
+DRY_SHAPER = """
+format: 1
+name: Shaper with dry joints
+frame: {points: {O: [0 m, 0.5 m], Q: [0 m, 0 m], R: [0 m, 0.95 m]}}
+links:
+  crank: {points: [O, A], length: 0.15 m, mass: 4 kg, inertia: 0.3 kg·m², mass_centre: O}
+  die: {points: [A], mass: 1 kg}
+  lever: {points: [Q, B], length: 0.9 m, mass: 6 kg, inertia: 0.4 kg·m²}
+  rod: {points: [B, C], length: 0.4 m, mass: 2 kg, inertia: 0.04 kg·m²}
+  ram: {points: [C], mass: 9 kg}
+joints:
+  A: {kind: revolute, pin_radius: 25 mm, friction: 0.15}
+  B: {kind: revolute, pin_radius: 20 mm, friction: 0.15}
+  Q: {kind: revolute, pin_radius: 30 mm, friction: 0.15}
+  slot: {kind: prismatic, guide: lever, through: Q, direction: [Q, B], block: die, at: A, friction: 0.1}
+  bed: {kind: prismatic, guide: frame, through: R, direction: 0 deg, block: ram, at: C, friction: 0.1}
+drawing: {A: [0.15 m, 0.5 m], B: [0.25 m, 0.86 m], C: [0.64 m, 0.95 m]}
+driver: {turn: crank, about: O, speed: 7 rad/s}
+gravity: [0, -9.81 m/s²]
+loads: {cutting: {kind: force, on: ram, at: C, components: [-200 N, 0 N]}}
+"""

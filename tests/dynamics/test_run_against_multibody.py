@@ -103,3 +103,25 @@ def test_links_of_a_triad_are_found_where_the_run_was() -> None:
     found = lw.run(mechanism, duration=0.4, tolerance=1e-12)
     expected = by_multibody(mechanism, [0.0, 0.2, 0.4], rtol=1e-11)
     assert not disagreements(found, expected)
+
+
+@pytest.mark.parametrize(("at", "speed"), [(0.3, 7.0), (2.0, -7.0), (4.0, 5.0)])
+def test_a_machine_with_dry_joints_is_let_go(at: float, speed: float) -> None:
+    """Pins between moving links, a slot that turns, a bed: friction from the joint forces, which it changes."""
+    mechanism = lw.loads(models.DRY_SHAPER)
+    found = lw.release(mechanism, at=at, speed=speed)
+    expected = by_multibody(mechanism, [0.0], at={"driver": at}, speed={"driver": speed})
+    assert found.accelerations["driver"] == pytest.approx(expected.motion.angle("crank")[2][0], rel=1e-11)
+    for joint in mechanism.joints.values():
+        for link in joint.joined:
+            force = expected.forces.on(joint.name, link)[0][0]
+            assert found.forces.reaction(joint.name, on=link)[0] == pytest.approx(force, abs=1e-9)
+
+
+@pytest.mark.rotating
+def test_a_machine_with_dry_joints_coasts() -> None:
+    mechanism = lw.loads(models.DRY_SHAPER)
+    found = lw.run(mechanism, at=0.3, speed=9.0, duration=0.05, tolerance=1e-11)
+    expected = by_multibody(mechanism, [0.0, 0.05], at={"driver": 0.3}, speed={"driver": 9.0}, rtol=1e-9)
+    assert not disagreements(found, expected, within=1e-8, forces_within=1e-7)
+    assert found.energy_residual < 1e-10

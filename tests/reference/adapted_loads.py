@@ -22,7 +22,7 @@ from tests.reference.formulas import (
     torsion_spring,
 )
 from tests.reference.laws import taylor
-from tests.reference.multibody import Array, Load, Motion, Vec
+from tests.reference.multibody import Array, Forces, Load, Motion, Vec
 
 
 def reference_loads(mechanism: Any, motion: Motion, time: Array) -> list[Load]:
@@ -153,6 +153,29 @@ def _within(part: Any, passed: Array) -> NDArray[np.bool_]:
     before, after = {"free": (first, 1 - last), "first": (0.0, first), "last": (1 - last, 1.0)}[part.word]
     inside: NDArray[np.bool_] = (passed >= before) & (passed <= after)
     return inside
+
+
+def friction_loads(mechanism: Any, motion: Motion, found: Forces) -> dict[str, Load]:
+    """Couples against relative rotation, forces against sliding, from the reactions in `found`."""
+    loads: dict[str, Load] = {}
+    for name, joint in mechanism.joints.items():
+        coefficient = getattr(joint, "friction", 0.0)
+        if not coefficient:
+            continue
+        if joint.kind == "revolute":
+            a, b = joint.links
+            pressing = np.hypot(*found.on(name, b)[0].T)
+            turning = motion.angle(b)[1] - motion.angle(a)[1]
+            loads[name] = torque(b, -np.sign(turning) * coefficient * joint.pin_radius * pressing, a)
+            continue
+        u = motion.direction(joint.guide, guide_direction(mechanism, joint))
+        force = found.on(name, joint.block)[0]
+        pressing = np.abs(u[:, 0] * force[:, 1] - u[:, 1] * force[:, 0])
+        sliding: Array = slide_coordinate(mechanism, motion, joint)[1]
+        block = joint.block, link_points(mechanism, joint.block)[joint.at]
+        guide = joint.guide, guide_direction(mechanism, joint)
+        loads[name] = push_along_guide(guide, block, -np.sign(sliding) * coefficient * pressing)
+    return loads
 
 
 def _force(mechanism: Any, load: Any, course: Course) -> Load:

@@ -7,18 +7,14 @@ repeats until they agree.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
-from tests.reference.adapted_loads import reference_loads
-from tests.reference.adapter import guide_direction, link_points, reference_motion
-from tests.reference.agreement import slide_coordinate
-from tests.reference.formulas import push_along_guide, torque
+from tests.reference.adapted_loads import friction_loads, reference_loads
+from tests.reference.adapter import reference_motion
 from tests.reference.geared import pressed_forces
 from tests.reference.geared_judge import TIMES, well_placed
 from tests.reference.geared_mechanisms import geared_case
-from tests.reference.multibody import Array, Forces, Load, Motion
 
 import linkwright as lw
 
@@ -43,29 +39,6 @@ driver: {turn: crank, about: O, speed: SPEED rad/s}
 gravity: [0, -9.81 m/s²]
 loads: {cutting: {kind: force, on: ram, at: C, components: [-200 N, 0 N]}}
 """
-
-
-def friction_loads(mechanism: Any, motion: Motion, found: Forces) -> dict[str, Load]:
-    """Couples against relative rotation, forces against sliding, from the reactions in `found`."""
-    loads: dict[str, Load] = {}
-    for name, joint in mechanism.joints.items():
-        coefficient = getattr(joint, "friction", 0.0)
-        if not coefficient:
-            continue
-        if joint.kind == "revolute":
-            a, b = joint.links
-            pressing = np.hypot(*found.on(name, b)[0].T)
-            turning = motion.angle(b)[1] - motion.angle(a)[1]
-            loads[name] = torque(b, -np.sign(turning) * coefficient * joint.pin_radius * pressing, a)
-            continue
-        u = motion.direction(joint.guide, guide_direction(mechanism, joint))
-        force = found.on(name, joint.block)[0]
-        pressing = np.abs(u[:, 0] * force[:, 1] - u[:, 1] * force[:, 0])
-        sliding: Array = slide_coordinate(mechanism, motion, joint)[1]
-        block = joint.block, link_points(mechanism, joint.block)[joint.at]
-        guide = joint.guide, guide_direction(mechanism, joint)
-        loads[name] = push_along_guide(guide, block, -np.sign(sliding) * coefficient * pressing)
-    return loads
 
 
 @pytest.mark.parametrize("speed", [7.0, -7.0])
