@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from linkwright import Forces, Motion
+from linkwright import Forces, Motion, solve_forces
 
 Floats = NDArray[np.float64]
 
@@ -86,6 +86,11 @@ def heat(m: Motion, f: Forces) -> Floats:
     )
 
 
+def held_at(m: Motion, point: str) -> Floats:
+    """Force along a point's path of the same power as the torque that holds the machine still."""
+    return np.asarray(solve_forces(m, static=True).input_torque * 3.0 / size(m.point(point).velocity))
+
+
 def mu(m: Motion) -> Floats:
     """Between the rod B–C and the normal of the horizontal bed."""
     rod = m.point("C").position - m.point("B").position
@@ -110,6 +115,9 @@ OF_THE_SHAPER: list[tuple[str, str, Reading]] = [
     ("bed.acceleration", "acceleration", lambda m, f: m.joint("bed").acceleration),
     ("driver.effort", "torque", lambda m, f: f.input_torque),
     ("input_torque", "torque", lambda m, f: f.input_torque),
+    ("driver.holding_effort", "torque", lambda m, f: solve_forces(m, static=True).input_torque),
+    ("hand_force C", "force", lambda m, f: held_at(m, "C")),
+    ("hand_force lever.B", "force", lambda m, f: held_at(m, "B")),
     ("power", "power", lambda m, f: f.input_torque * 3.0),
     ("shaking_force", "force", lambda m, f: size(f.shaking_force)),
     ("shaking_force.y", "force", lambda m, f: f.shaking_force[:, 1]),
@@ -134,6 +142,7 @@ OF_THE_SHAPER: list[tuple[str, str, Reading]] = [
 OF_THE_PUSHED: list[tuple[str, str, Reading]] = [
     ("driver.effort", "force", lambda m, f: f.driver_effort("driver")),
     ("input_torque", "force", lambda m, f: f.driver_effort("driver")),
+    ("driver.holding_effort", "force", lambda m, f: solve_forces(m, static=True).driver_effort("driver")),
     ("power", "power", lambda m, f: f.driver_effort("driver") * -0.2),
     ("velocity_ratio bed", "dimensionless", lambda m, f: np.ones(m.steps)),
     ("velocity_ratio rod", "angle_per_length", lambda m, f: m.link("rod").angular_velocity / -0.2),

@@ -70,6 +70,8 @@ FIRST = (
         "peak_power",
         "mean_power",
         "efficiency",
+        "holding_torque",
+        "rms_holding_torque",
         "energy_fluctuation",
         "flywheel",
     },

@@ -18,7 +18,7 @@ from linkwright.words import Message, _
 class Kind:
     """What outputs of one kind share.
 
-    ``of``: what they belong to (point, link, guide, driver, joint, load, the loads on a link, group, motion,
+    ``of``: what they belong to (point, handle, link, guide, driver, joint, load, the loads on a link, group, motion,
     machine); ``dimension``: of a driver's outputs for one that turns; ``row``: before the owner among rows of
     programs; ``symbol``: as in formulas on a line; ``vector``: has components x and y; ``word``: for the
     user, where it is not the kind's name; ``slid``: dimension for a driver that slides; ``form``: how the user asks
@@ -63,6 +63,8 @@ KINDS = {
     "conditioning": Kind("group", "dimensionless", form="phrase"),
     "outcome": Kind("motion", "dimensionless", "outcome"),
     "effort": Kind("driver", "torque", "effort", "M", slid="force", form="part"),
+    "holding_effort": Kind("driver", "torque", slid="force", form="part"),
+    "hand_force": Kind("handle", "force", form="phrase"),
     "reaction": Kind("joint", "force", "r", "F", vector=True, form="phrase"),
     "couple": Kind("joint", "torque", "c", "M", form="phrase"),
     "reaction_direction": Kind("joint", "angle", symbol="β", word="direction", form="phrase"),
@@ -190,6 +192,8 @@ QUANTITIES = {
     "velocity": _("velocity of {name}"),
     "acceleration": _("acceleration of {name}"),
     "effort": _("effort of driver {name}"),
+    "holding_effort": _("effort that holds {name} at rest"),
+    "hand_force": _("hand force at {name}"),
     "input_torque": _("input torque"),
     "input_force": _("input force"),
     "input": _("input {name}"),

@@ -273,7 +273,7 @@ def _phrase(mechanism: Mechanism, text: str, kind: str, rest: list[str]) -> Outp
         place = output_meant(mechanism, rest[0])
         measured = RATIO[place.dimension, "length" if first and _slides(mechanism, first) else "angle"]
         return Output(kind, place.owner, measured=measured)
-    return Output(kind, point_key(mechanism, rest[0]) if KINDS[kind].of == "point" else rest[0])
+    return Output(kind, point_key(mechanism, rest[0]) if KINDS[kind].of in ("point", "handle") else rest[0])
 
 
 def _over_column(mechanism: Mechanism, text: str, joint: str, place: str) -> Output | None:

@@ -7,7 +7,7 @@ from linkwright.applied_loads.signals import BetweenLimits, place_named
 from linkwright.applied_loads.strokes import moving_of_turn, share_of, stroke_of_turn
 from linkwright.core.outputs import Output, row_name
 from linkwright.drivers.base import Driver
-from linkwright.formula.linear_algebra import Vec
+from linkwright.formula.linear_algebra import ZERO, Vec
 from linkwright.formula.trace import Mask, Scalar, angle, cos, select, sign, sin, sqrt
 from linkwright.kinematics.trace import MotionOutputs, MotionTrace
 from linkwright.mechanism.mechanism import Mechanism
@@ -254,3 +254,26 @@ class TracedSite:
 
     def direction(self, angle: Scalar) -> Vec:
         return Vec(cos(angle), sin(angle))
+
+
+class RestingSite(TracedSite):
+    """The same view of a mechanism that stands still in its positions: nothing has a rate, only directions of motion
+    stay."""
+
+    def velocity(self, link: str, point: str) -> Vec:
+        return ZERO
+
+    def omega(self, link: str) -> Scalar:
+        return 0.0
+
+    def turning(self, link: str, against: str) -> Scalar:
+        return 0.0
+
+    def heading_of(self, link: str, point: str) -> Vec:
+        velocity = super().velocity(link, point)
+        moves = velocity.square > 0.0
+        return velocity * select(moves, 1.0 / sqrt(select(moves, velocity.square, 1.0)), 0.0)
+
+    def guide(self, joint: str) -> tuple[Vec, Vec, Scalar]:
+        direction, place, _rate = super().guide(joint)
+        return direction, place, 0.0

@@ -75,6 +75,11 @@ class Traces(Protocol):
         ...
 
     @property
+    def resting(self) -> ForceTrace:
+        """Efforts that hold the mechanism still."""
+        ...
+
+    @property
     def outputs(self) -> ForceOutputs:
         """Outputs of the forces by name."""
         ...
@@ -287,6 +292,18 @@ class Named:
         first, second = (self.motion.outputs.point(each)[0] for each in keys)
         return sqrt((second - first).square)
 
+    def holding_effort(self, name: str, output: Output) -> Scalar:
+        """Effort of a driver that holds the machine still in its position, without friction of joints."""
+        return self.forces.resting.efforts[output.owner]
+
+    def hand_force(self, name: str, output: Output) -> Scalar:
+        """Force on a point, along its path in the sense of the first driver, that holds the machine still."""
+        first = next(iter(self.mechanism.drivers), None)
+        if first is None:
+            no_output(self.mechanism, name)
+        velocity = self.motion.outputs.point(output.owner)[1]
+        return self.forces.resting.efforts[first] * self._first_rate(name) / sqrt(velocity.square)
+
     def equivalent_inertia(self, name: str, output: Output) -> Scalar:
         """Inertia on the first driver's link of the same kinetic energy as all links."""
         motion = self.motion.motion
@@ -347,6 +364,8 @@ _FORMULAS: dict[str, Callable[[Named, str, Output], Scalar]] = {
     "areal_velocity": Named.areal_velocity,
     "distance": Named.distance,
     "equivalent_inertia": Named.equivalent_inertia,
+    "holding_effort": Named.holding_effort,
+    "hand_force": Named.hand_force,
 }
 
 

@@ -26,7 +26,7 @@ from linkwright.kinetostatics.friction import (
     pressing,
     solved_friction,
 )
-from linkwright.kinetostatics.load_site import TracedSite
+from linkwright.kinetostatics.load_site import RestingSite, TracedSite
 from linkwright.kinetostatics.named_outputs import Named
 from linkwright.kinetostatics.self_check import ForceChecks
 from linkwright.kinetostatics.trace import ForceOutputs, ForceTrace, Size, trace_forces
@@ -76,6 +76,11 @@ class ForceSolver:
     def forces(self) -> ForceTrace:
         """Reactions and efforts as traced values."""
         return self.programs.forces
+
+    @property
+    def resting(self) -> ForceTrace:
+        """The same of what holds the mechanism still."""
+        return self.programs.resting
 
     @property
     def outputs(self) -> ForceOutputs:
@@ -164,6 +169,11 @@ class ForcePrograms:
         if not self.rubbing or not self._terms.terms:
             return None
         return solved_friction(self._terms, self._under)
+
+    @locked_property
+    def resting(self) -> ForceTrace:
+        """What holds the mechanism still in its positions: no inertia, no rates, no friction of joints."""
+        return trace_forces(self.motion.motion, inertia=False, along_input=self.along_input, site=RestingSite)
 
     @locked_property
     def signed(self) -> dict[str, Scalar]:
