@@ -41,6 +41,7 @@ ATTACHED.update(
         "Rocking.limits": "linkwright.kinematics.rocking:limits",
         "Rack.draw": "linkwright.plotting.true_shapes:draw_rack",
         "Rack.save_dxf": "linkwright.exporters.true_shapes:save_rack",
+        "Run.as_driven": "linkwright.dynamics.found_course:as_driven",
         "Study.tables": "linkwright.designs.study_text:tables",
         "Synthesis.worked": "linkwright.synthesis.steps.solution:worked",
         "Variants.files": "linkwright.course.questions:files_of",

@@ -86,3 +86,33 @@ gravity: [0, -9.81 m/s²]
     run = lw.run(lw.loads(text), duration=3.0 * period, at=start, tolerance=1e-13)
     assert run.end_state["driver"] == pytest.approx((start, 0.0), abs=1e-10)
     assert run.energy_residual < 1e-11
+
+
+def test_drivers_that_move_as_in_a_run_supply_what_its_actuators_did() -> None:
+    """The force analysis of the motion that was found gives back the torques that made it, of motor and brake."""
+    motor = "{kind: dc, on: crank, voltage: 200 V, constant: 0.9 N·m/A, resistance: 0.8 ohm, ratio: 12, until: 2 s}"
+    text = f"""
+format: 1
+frame: {{points: {{O: [0 m, 0 m]}}}}
+links:
+  crank: {{points: [O, A], length: 0.1 m, mass: 10 kg, inertia: 2 kg·m²}}
+  rod: {{points: [A, B], length: 0.45 m, mass: 12 kg, inertia: 0.25 kg·m²}}
+  slide: {{points: [B], mass: 60 kg}}
+joints:
+  guide: {{kind: prismatic, guide: frame, through: O, direction: -90 deg, block: slide, at: B}}
+assembly: {{B: forward}}
+driver: {{turn: crank, about: O, speed: 170 rpm, start: 90 deg}}
+gravity: [0, -9.81 m/s²]
+actuators:
+  main: {motor}
+  disc: {{kind: brake, on: crank, torque: 900 N·m, from: 2 s}}
+run: {{until: rest}}
+"""
+    run = lw.run(lw.loads(text))
+    forces = lw.solve_forces(run.as_driven(), steps=60)
+    time, speed = forces.motion.time, forces.motion.link("crank").angular_velocity
+    expected = np.where(time < 2.0, 12 * 0.9 * (200.0 - 0.9 * 12 * speed) / 0.8, -900.0)
+    moves = speed > 1e-9
+    assert forces.input_torque[moves] == pytest.approx(expected[moves], rel=1e-10, abs=1e-8)
+    assert run.events[-1].kind == "rest"
+    assert "held" in [str(each)[:4] for each in run.events]

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arguments import STEPS
 from linkwright.core.arrays import Floats
+from linkwright.core.attached import attached
 from linkwright.core.data import locked
 from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.integration import Piece
@@ -149,6 +150,12 @@ class Run:
     def joint_forces(self, steps: int = STEPS, times: ArrayLike | None = None) -> RunForces:
         """The forces at the same times."""
         return RunForces.of(self.motion(steps, times))
+
+    @attached
+    def as_driven(self) -> Mechanism:
+        """The mechanism whose drivers move as in the run and supply what its actuators did, for all that shows a
+        prescribed motion: living pages, reports, sheets."""
+        raise NotImplementedError
 
     def __repr__(self) -> str:
         return f"Run({self.mechanism.name!r}: {self.end:.6g} s, {len(self.events)} events)"
