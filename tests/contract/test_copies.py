@@ -106,6 +106,8 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "torque expression": lambda: lw.TorqueCurve.from_function("100 + 20*sin(theta)"),
     "torque difference": lambda: lw.TorqueCurve.constant(3.0).minus(lw.TorqueCurve.from_function("1 + sin(theta)")),
     "balancing": lambda: lw.balance(lw.load("gallery:crank_rocker"), radius=0.1),
+    "release": lambda: lw.release(CRUSHER(), at=0.5),
+    "run": lambda: lw.run(lw.load("gallery:watt_sixbar"), duration=0.1),
     "worked": lambda: lw.worked(crusher(), 0),
     "comparison": lambda: lw.compare([SIX, "gallery:jaw_crusher_fourbar"], steps=48),
     "study": lambda: lw.study(CRUSHER(), {"crank.length": "90..100 mm:3"}, steps=48),

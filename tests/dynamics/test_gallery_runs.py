@@ -8,10 +8,9 @@ from scipy.integrate import trapezoid
 from scipy.optimize import brentq
 
 import linkwright as lw
-from linkwright.core.arrays import Floats
 
 
-def kloss(speed: Floats) -> Floats:
+def kloss(speed: np.ndarray) -> np.ndarray:
     """Torque of the crusher's motor near its rated speed, by hand: 11 kW at 1460 rpm, pull-out 2.8."""
     rated, slip = 11e3 / (1460 * np.pi / 30), 1 - speed / (1500 * np.pi / 30)
     breakdown = (1 - 1460 / 1500) * (2.8 + np.sqrt(2.8**2 - 1))

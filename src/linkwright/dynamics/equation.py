@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -97,6 +98,10 @@ class EquationOfMotion:
         self.forces = ForceSolver(self.solver, along_input=magnitudes, rubbing=self.rubs, site=site)
         self.plain = ForceSolver(self.solver, along_input=magnitudes, site=site)
         self.resting = ForceSolver(self.solver, along_input=magnitudes, inertia=False, site=site)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """All but what every process traces for itself."""
+        return {name: each for name, each in self.__dict__.items() if name not in ("traced", "_source", "switches")}
 
     # numbers and inputs ---------------------------------------------------------------------------------
     @cached_property

@@ -103,6 +103,10 @@ class System:
     def __hash__(self) -> int:
         return id(self)
 
+    def __reduce__(self) -> tuple[type[System], tuple[EquationOfMotion]]:
+        """Made anew from the equation: compiled code and its buffers stay with their process."""
+        return System, (self.equation,)
+
     @staticmethod
     def _rows(side: RightSide) -> dict[int, int]:
         names = {switch_name(k): k for k in range(len(side.inputs))}
