@@ -161,3 +161,55 @@ def test_a_diagram_and_a_table() -> None:
     assert found.plot().kind == "drive_margin"
     assert len(found.columns()["needed_at_rest [N·m]"]) == 72
     assert "too little" in found.text()
+
+
+def test_a_worm_gear_holds_what_it_lifts() -> None:
+    """A rope of 60 N·m runs a drum back that is switched off, but not through a worm that holds 100 N·m."""
+    drum = """
+format: 1
+name: Hoist
+frame: {{points: {{O: [0 mm, 0 mm]}}}}
+links: {{drum: {{points: [O, P], length: 100 mm, inertia: 2 kg·m²}}}}
+driver: {{turn: drum, about: O, speed: 1 rad/s}}
+loads: {{rope: {{kind: torque, on: drum, magnitude: -60 N·m}}}}
+actuators:
+  motor: {{kind: dc, on: drum, ratio: 40, efficiency: 0.45, stall_torque: 5 N·m, no_load_speed: 100 rad/s{worm}}}
+"""
+    plain, worm = (
+        lw.drive_margin(lw.loads(drum.format(worm=each)), steps=8)
+        for each in ("", ", self_locking: true, holding: 100 N·m")
+    )
+    for each in (plain, worm):
+        assert each.starting_margin == pytest.approx(40 * 0.45 * 5 / 60, rel=1e-9)
+    assert plain.starting.returning == pytest.approx(60.0) and not plain.holds.any()
+    assert worm.starting.returning == pytest.approx(-40.0) and worm.holds.all()
+
+
+def test_brakes_and_flywheels_are_part_of_the_load() -> None:
+    wheel = (
+        CRANK.format(rod=300, friction=0)
+        + """
+actuators:
+  drive: {kind: constant, on: crank, torque: 30 N·m}
+  drag: {kind: brake, on: crank, torque: 5 N·m}
+  disc: {kind: flywheel, on: crank, inertia: 1 kg·m²}
+  stop: {kind: brake, on: crank, torque: 500 N·m, from: 10 s}
+"""
+    )
+    without, found = lw.drive_margin(pump()), lw.drive_margin(lw.loads(wheel))
+    assert found.starting.needed == pytest.approx(without.starting.needed + 5.0, abs=1e-9)
+    assert found.starting.available == pytest.approx(30.0)
+    assert lw.drive_margin(
+        lw.loads(wheel.replace("drive: {kind: constant, on: crank, torque: 30 N·m}", ""))
+    ).verdict == ("no_drive")
+
+
+def test_a_force_against_the_velocity_resists_at_rest_as_well() -> None:
+    """The same torque as of a force that always points against the motion: P r |sin(θ + β)|/cos β."""
+    against = CRANK.format(rod=300, friction=0).replace(
+        "components: [-100 N, 0 N]", "opposes: velocity, magnitude: 100 N"
+    )
+    found = lw.drive_margin(lw.loads(against), steps=72).starting
+    theta = found.input
+    beta = np.arcsin(np.sin(theta) * RADIUS / 0.3)
+    assert found.needed == pytest.approx(np.abs(FORCE * RADIUS * np.sin(theta + beta) / np.cos(beta)), abs=1e-9)

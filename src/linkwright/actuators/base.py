@@ -37,12 +37,13 @@ Report = Callable[[str, str, str], None]
 class Actuator(Load):
     """What acts on a mechanism only where its motion follows from the forces; in a prescribed motion it is left out.
 
-    ``brakes``: whether all that it does is to oppose the motion.
+    ``drives``: whether it can move a machine; ``brakes``: whether all that it does is to oppose the motion.
     ``begin``, ``until``: the time, s, from which and up to which it acts (keys ``from`` and ``until``); always
     without.
     """
 
     section: ClassVar[str] = "actuators"
+    drives: ClassVar[bool] = True
     brakes: ClassVar[bool] = False
     begin: float | None = base.quantity(
         "time", default=None, key="from", doc=_("time at which it begins to act (default: from the beginning)")

@@ -23,6 +23,7 @@ class Brake(AlongCoordinate):
     Source: Norton, Design of Machinery, chapter 10 (dynamics fundamentals).
     """
 
+    drives: ClassVar[bool] = False
     brakes: ClassVar[bool] = True
     exactly_one: ClassVar[tuple[tuple[str, ...], ...]] = (*AlongCoordinate.exactly_one, ("torque", "force"))
     torque: float | None = base.quantity("torque", minimum=0, default=None, doc=_("torque of friction"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from linkwright.actuators.base import ACTUATORS, TIMES, Actuator
 from linkwright.applied_loads import base
@@ -20,6 +21,8 @@ class Flywheel(Actuator):
     It acts in motion under forces only, beside the link's own inertia, which acts everywhere.
     Source: Norton, Design of Machinery, chapter 11 (controlling input torque: flywheels).
     """
+
+    drives: ClassVar[bool] = False
 
     on: str = base.link(moving=True, doc=_("the link that carries or drives it"))
     inertia: float = base.quantity("inertia", above=0, doc=_("its moment of inertia"))

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 from typing import Any
 
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.table import Amount, Cell, Table, Tabular
 from linkwright.dynamics.result import KINDS, Happening, Run, RunForces
+from linkwright.dynamics.verdicts.stalled_run import stalled
 from linkwright.errors import RequestError
 from linkwright.kinematics.positions import coordinate_text
 from linkwright.words import Message, _, in_language, pgettext
@@ -44,6 +46,11 @@ class RunText(Tabular):
             self._forces = self.run.joint_forces(self.steps)
         return self._forces
 
+    @cached_property
+    def stalled(self) -> Message | None:
+        """That its drive cannot start it, or move it on, with what is missing."""
+        return stalled(self.run)
+
     @property
     def reason(self) -> Message:
         """Why it ended."""
@@ -71,7 +78,8 @@ class RunText(Tabular):
             rows.append([_("{name} at the end", name=own), Amount(q, "angle" if turning else "length"), speed.text])
         largest_energy = _("of {energy}", energy=Amount(run.largest, "energy", 4).text)
         rows.append([_("energy missing at most"), Amount(run.residual, "energy", 2), largest_energy])
-        return Table((), rows, "<><", in_language(run.mechanism.name, language))
+        notes = [] if self.stalled is None else [in_language(self.stalled, language)]
+        return Table((), rows, "<><", in_language(run.mechanism.name, language), notes)
 
     def _events(self, language: str) -> Table:
         events = self.run.events
@@ -109,6 +117,7 @@ class RunText(Tabular):
             "name": run.mechanism.name,
             "end [s]": run.end,
             "reason": str(self.reason),
+            **({} if self.stalled is None else {"stalled": str(self.stalled)}),
             "interrupted": run.note is not None,
             "end_state": {name: {"coordinate": q, "rate": rate} for name, (q, rate) in run.end_state.items()},
             "events": [

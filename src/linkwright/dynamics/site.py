@@ -14,8 +14,10 @@ from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.drivers.free import Free
 from linkwright.dynamics.stops import contact
 from linkwright.errors import LinkwrightError
+from linkwright.formula.differentiation import slope
+from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.table import Table
-from linkwright.formula.trace import Scalar, angle, nearest_turn, select
+from linkwright.formula.trace import Scalar, angle, nearest_turn, select, sqrt
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinematics.trace import MotionOutputs, MotionTrace
 from linkwright.kinetostatics.load_site import TracedSite, limit_name, sense_name, value_name
@@ -25,6 +27,8 @@ from linkwright.words import _
 
 #: A slide never comes round: so many times the size of its machine.
 _FAR = 1e6
+#: Way of a point per unit of the input, over the size of the machine, that is none.
+_DEAD = 1e-12
 
 
 class FreeSite(TracedSite):
@@ -51,6 +55,17 @@ class FreeSite(TracedSite):
 
     def share_of_input(self, phase: BetweenLimits, share: Scalar) -> Scalar:
         return share
+
+    def heading_of(self, link: str, point: str) -> Vec:
+        """By the velocity per rate of the only input, so that there is one on both sides of rest too."""
+        if len(self.motion.drivers) != 1:
+            return super().heading_of(link, point)
+        rate = self.motion.trace.position(Input("rate", next(iter(self.motion.drivers))).name)
+        velocity = self.velocity(link, point)
+        way = Vec(slope(velocity.x, {rate: 1.0}), slope(velocity.y, {rate: 1.0}))
+        moves = way.square > (_DEAD * self.motion.mechanism.size) ** 2
+        size = select(moves, 1.0 / sqrt(select(moves, way.square, 1.0)), 0.0)
+        return way * (size * select(rate > 0.0, 1.0, select(rate < 0.0, -1.0, 0.0)))
 
 
 class ModelSite(FreeSite):

@@ -28,8 +28,8 @@ class Torques:
 
     ``time`` s in the cycle, ``input`` the driver's coordinate, rad or m; ``needed`` to move on, NaN where no finite
     effort does; ``available`` from the actuators; ``ideal``: needed without friction; ``returning``: what the driver
-    must hold back with so that the machine does not run backwards (not positive where it stands by itself); ``rate``
-    and ``second`` of the driver in the sense of its motion.
+    must hold back with, the actuators off, so that the machine does not run backwards (not positive where it stands
+    by itself); ``rate`` and ``second`` of the driver in the sense of its motion.
     """
 
     time: Floats
@@ -65,18 +65,16 @@ class Drive:
         self.input_dimension = "angle" if self.rotary else "length"
         self.prescribed = all(each.law.prescribed for each in mechanism.drivers.values())
         self.mechanism = mechanism if self.prescribed else _at_constant_speed(mechanism)
-        self.driven = bool(mechanism.actuators)
-        self._load = QuasiStatic(replace(mechanism, actuators={}))
+        self.driven = any(each.drives for each in mechanism.actuators.values())
+        self._load = QuasiStatic(replace(mechanism, actuators=resisting(mechanism)))
 
     @cached_property
     def _all(self) -> QuasiStatic:
-        return QuasiStatic(replace(self.source, actuators=self._at_limits)) if self.driven else self._load
+        return QuasiStatic(replace(self.source, actuators=at_limits(self.source))) if self.driven else self._load
 
-    @property
-    def _at_limits(self) -> dict[str, Actuator]:
-        """The actuators switched on, those that are controlled at their limits; without brakes that come later."""
-        found = {name: each for name, each in self.source.actuators.items() if not (each.brakes and each.begin)}
-        return {name: replace(each.at_limit(), begin=None, until=None) for name, each in found.items()}
+    @cached_property
+    def _off(self) -> QuasiStatic:
+        return QuasiStatic(replace(self.source, actuators=switched_off(self.source)))
 
     def cycle(self, steps: int, *, closed: bool = False) -> Floats:
         """Times of the positions of the cycle that are reached, s; ``closed``: the first one again at the end."""
@@ -110,7 +108,7 @@ class Drive:
         sense = senses[self.name]
         load = self._load.starting(course, senses)
         net = self._all.starting(course, senses) if self.driven else load
-        back = self._load.starting(course, {**senses, self.name: -sense})
+        back = self._off.starting(course, {**senses, self.name: -sense})
         name = self.name
         return Torques(
             time=reached,
@@ -143,6 +141,23 @@ class Drive:
     def quality(self, times: Floats) -> Floats:
         """Of the worst group of links, 0 at a dead point of the driver, 1 at best, (n,)."""
         return self._load.quality(self.course(times)[0])
+
+
+def at_limits(mechanism: Mechanism) -> dict[str, Actuator]:
+    """The actuators switched on, those that are controlled at their limits; without brakes that come later."""
+    found = {name: each for name, each in mechanism.actuators.items() if not (each.brakes and each.begin)}
+    return {name: replace(each.at_limit(), begin=None, until=None) for name, each in found.items()}
+
+
+def resisting(mechanism: Mechanism) -> dict[str, Actuator]:
+    """Brakes that always act, and flywheels: a part of the load."""
+    return {name: each for name, each in at_limits(mechanism).items() if not each.drives}
+
+
+def switched_off(mechanism: Mechanism) -> dict[str, Actuator]:
+    """The actuators switched off; gears that lock and brakes that always act hold on."""
+    found = {name: each for name, each in mechanism.actuators.items() if not (each.brakes and each.begin)}
+    return {name: replace(each, begin=None, until=None if each.brakes else 0.0) for name, each in found.items()}
 
 
 def _driver(mechanism: Mechanism, driver: str | None) -> str:
