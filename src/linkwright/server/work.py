@@ -64,6 +64,8 @@ class Work:
             "tasks": self._tasks,
             "synthesis": self._synthesis,
             "metrics": self._metrics,
+            "actuators": self._actuators,
+            "run": self._run,
             "candidates": lambda a: self.background.state(),
             "enough": lambda a: self.background.end(),
             "take": self._take,
@@ -170,6 +172,18 @@ class Work:
         from linkwright.server.metrics import metric_rows
 
         return {"metrics": metric_rows(text(asked, "text"), language_of(asked))}
+
+    def _actuators(self, asked: Plain) -> Plain:
+        """What acts in motion under forces, as forms."""
+        from linkwright.server.running import forms
+
+        return forms(language_of(asked))
+
+    def _run(self, asked: Plain) -> Plain:
+        """Begins the run of a text's model under its actuators and loads."""
+        from linkwright.server.running import started
+
+        return self.background.begin("run", started(text(asked, "text")), language_of(asked))
 
     def _take(self, asked: Plain) -> Plain:
         """A report, an export, an exercise of a text: its bytes in base64."""

@@ -13,7 +13,7 @@ export const TOOLS = [
 export type ToolName = (typeof TOOLS)[number];
 export const TABS = ["inspect", "numbers", "findings", "structure", "text"] as const;
 export type Tab = (typeof TABS)[number];
-export const DOCKS = ["curves", "sweep", "synthesis", "optimise", "compare"] as const;
+export const DOCKS = ["curves", "run", "sweep", "synthesis", "optimise", "compare"] as const;
 export type DockName = (typeof DOCKS)[number];
 export const SHOWN = [
   "velocities", "accelerations", "forces", "loads", "transmission", "paths", "limits", "centres", "names", "dimensions", "reach", "grid",

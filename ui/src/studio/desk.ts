@@ -123,7 +123,17 @@ interface Progress {
   done: number[];
 }
 
-export type Sought = Progress & ({ kind: "curve"; candidates: Candidate[] } | { kind: "synthesis"; candidates: Design[]; notes?: string[] } | { kind: "optimum"; head?: string[]; candidates: Better[] });
+/** How a run ended and what happened, with the times of that, s; the machine as it moved, once it has. */
+export interface Ran {
+  candidates: never[];
+  model?: ModelData;
+  summary?: string[][];
+  events?: string[][];
+  times?: number[];
+  end?: number;
+}
+
+export type Sought = Progress & (({ kind: "run" } & Ran) | { kind: "curve"; candidates: Candidate[] } | { kind: "synthesis"; candidates: Design[]; notes?: string[] } | { kind: "optimum"; head?: string[]; candidates: Better[] });
 
 export class Desk {
   readonly text = signal("");
@@ -147,6 +157,8 @@ export class Desk {
   /** How many files are being made for downloads. */
   readonly making = signal(0);
   readonly sought = signal<Sought | null>(null);
+  /** Whether the machine on the sheet moves as in a run under forces. */
+  readonly running = signal(false);
   private readonly window = crypto.randomUUID();
   private readonly token = new URLSearchParams(location.search).get("token") ?? "";
   readonly history = new History<string>(() => this.text.value, (text) => this.put(text, 0));
@@ -404,6 +416,7 @@ export class Desk {
     if (old) inherit(session, old);
     session.ended = () => void this.adopt(session);
     this.session.value = session;
+    this.running.value = false;
     this.page.sessions.splice(0, Infinity, ...(this.session.value ? [this.session.value] : []));
   }
 
@@ -431,7 +444,7 @@ export class Desk {
   }
 
   /** Begins a search and looks what is found so far until it has ended. */
-  async search(name: "curve" | "synthesis" | "optimize", body: Record<string, unknown>): Promise<void> {
+  async search(name: "curve" | "synthesis" | "optimize" | "run", body: Record<string, unknown>): Promise<void> {
     const begun = await this.ask<{ number: number }>(name, body);
     if (!begun) return;
     this.page.note.value = "";
@@ -442,6 +455,19 @@ export class Desk {
       if (!found.running) return;
       await new Promise((go) => setTimeout(go, LOOK));
     }
+  }
+
+  /** Lets the machine of the text move under its actuators and loads, and shows how it moved until it is changed. */
+  async run(): Promise<void> {
+    const text = this.text.value;
+    await this.search("run", { text });
+    const ran = this.sought.value;
+    if (ran?.kind !== "run" || !ran.model || text !== this.text.value) return;
+    this.session.value = new Session(ran.model, await code(ran.model), 0);
+    this.page.sessions.splice(0, Infinity, this.session.value);
+    this.running.value = true;
+    this.page.phase.value = 0;
+    this.page.pace.value = 1;
   }
 
   /** Writes dimensions (SI) into the text as it is then; false where it does not admit them. */

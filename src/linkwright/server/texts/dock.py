@@ -8,6 +8,20 @@ from linkwright.words import Message, _, pgettext
 DOCK: dict[str, Message] = SYNTHESIS | {
     "dock": pgettext("dock", "Time line and curves"),
     "dock.curves": _("Curves"),
+    "dock.run": pgettext("dock", "Run"),
+    "dock.actuators": _("Motors, brakes, cylinders"),
+    "dock.add_actuator": _("Add what drives or brakes"),
+    "dock.add": pgettext("dock", "Add"),
+    "dock.stops": _("End stops"),
+    "dock.add_stop": _("Add an end stop"),
+    "dock.conditions": _("How it begins and ends"),
+    "dock.begin_run": _("Let it run"),
+    "dock.run_help": _(
+        "Motors, weights and springs move the machine. What happens is shown here, and the sheet shows it in true "
+        "time."
+    ),
+    "dock.run_over": _("The machine was changed since; let it run again to see how it moves now."),
+    "dock.back_to_driver": _("Show the prescribed motion again"),
     "dock.sweep": pgettext("dock", "Sweep"),
     "dock.synthesis": pgettext("dock", "Synthesis"),
     "dock.optimise": pgettext("dock", "Optimise"),

@@ -6,6 +6,7 @@ import { type Bench, type DockName, DOCKS } from "../bench";
 import { Compare } from "./compare";
 import { Curves, CurvesHead } from "./curves";
 import { Optimise } from "./optimise";
+import { Running } from "./run";
 import { Sweep, SweepHead } from "./sweeping";
 import { Progress, Synthesis } from "./synthesis";
 import { beginning, TimeLine } from "./transport";
@@ -26,6 +27,7 @@ export function Dock({ bench }: { bench: Bench }) {
         {open === "sweep" && session && <SweepHead bench={bench} session={session} />}
         {open === "optimise" && <Progress bench={bench} kinds={["optimum"]} />}
         {open === "synthesis" && <Progress bench={bench} kinds={["curve", "synthesis"]} />}
+        {open === "run" && <Progress bench={bench} kinds={["run"]} />}
       </div>
       {open && <div class="dock-panel" role="tabpanel" id="dock-panel" aria-label={bench.say(`dock.${open}`)}><Panel bench={bench} name={open} /></div>}
     </section>
@@ -35,6 +37,7 @@ export function Dock({ bench }: { bench: Bench }) {
 function Panel({ bench, name }: { bench: Bench; name: DockName }) {
   const session = bench.session.value;
   if (name === "synthesis") return <Synthesis bench={bench} />;
+  if (name === "run" && bench.desk.solved.value.outline) return <Running bench={bench} />;
   if (!session || session.data.positions.count < 2) return <p class="no-curves">{bench.say("dock.no_machine")}</p>;
   if (name === "curves") return <Curves key={session} bench={bench} session={session} />;
   if (name === "sweep") return <Sweep bench={bench} session={session} />;
