@@ -99,6 +99,31 @@ def test_six_bars_against_runs_by_themselves(end: dict[str, str]) -> None:
         assert found.rates["driver"][number] == pytest.approx(w, rel=1e-8)
 
 
+@pytest.mark.parametrize("name", ["triad", "pinion_between_racks"])
+def test_machines_against_runs_by_themselves(name: str) -> None:
+    """A group without closed form; a load against a velocity that has no direction at rest."""
+    _as_by_itself(name, 0.2)
+
+
+@pytest.mark.rotating
+@pytest.mark.parametrize(
+    "name", ["change_point_fourbar", "excavator", "geared_fivebar", "planetary_two_inputs", "printing_press", "wedge"]
+)
+def test_other_machines_against_runs_by_themselves(name: str) -> None:
+    _as_by_itself(name, 0.3)
+
+
+def _as_by_itself(name: str, duration: float) -> None:
+    machine = lw.load(f"gallery:{name}")
+    address, value = next((a, v) for a, v in machine.dimensions().items() if a.endswith(".mass") and v > 0.0)
+    found = lw.run_designs(machine, {address: [1.2 * value]}, duration=duration, tolerance=1e-10)
+    assert found.ok.all() and not found.alone.any()
+    alone = lw.run(machine.with_dimensions({address: 1.2 * value}), duration=duration)
+    for driver, (q, w) in alone.end_state.items():
+        assert found.coordinates[driver][0] == pytest.approx(q, rel=1e-8, abs=1e-8)
+        assert found.rates[driver][0] == pytest.approx(w, rel=1e-8, abs=1e-8)
+
+
 def test_designs_that_cannot_be_put_together() -> None:
     found = lw.run_designs(lw.loads(SIXBAR), {"bar_1.length": [0.12, 0.3]}, duration=0.05)
     assert found.outcomes == ("ended", "no_start")

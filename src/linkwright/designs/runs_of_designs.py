@@ -129,8 +129,8 @@ def run_designs(
     """Runs of many designs of a machine under its loads and actuators (:func:`linkwright.run`), side by side.
 
     Every design has its own steps and events in one compiled loop. Designs in which friction holds are run each by
-    itself, in some ten milliseconds; so are all of machines with end stops, prescribed drivers, groups without
-    closed form or loads between limits of outputs, and with ``until="rest"``.
+    itself, in tenths of a second; so are all of machines with end stops, prescribed drivers or loads between limits
+    of outputs, and with ``until="rest"``.
 
     Args:
         mechanism: the design to start from; its assembly modes hold for all.

@@ -85,7 +85,12 @@ class Layout:
     def first_inputs(self) -> list[str]:
         """The first inputs of the program, in the order of the loop."""
         coordinates = [f"{kind}:{name}" for kind in "qw" for name in self.names]
-        return [*coordinates, "time", *self.inputs, *self.carried]
+        return [*coordinates, "time", *self.all_inputs]
+
+    @property
+    def all_inputs(self) -> list[str]:
+        """Those of each motion: ``inputs``, then the carried ones."""
+        return [*self.inputs, *self.carried]
 
     @property
     def outputs(self) -> list[str]:
@@ -104,7 +109,7 @@ class Layout:
         head = [len(self.names), self.states, len(self.events), len(self.watched), len(self.carried)]
         actions = [int(each.action) for each in self.events]
         flips = [list(self.inputs).index(each.flips) if each.flips else 0 for each in self.events]
-        return np.array([*head, len(self.inputs), inside, samples, *actions, *flips], dtype=np.int64)
+        return np.array([*head, len(self.all_inputs), inside, samples, *actions, *flips], dtype=np.int64)
 
 
 class Motions:
@@ -113,12 +118,12 @@ class Motions:
     ``time``, ``until``: (motions,) s; ``first``: length of the next step, 0 where not known; ``state``: (motions,
     states), see :class:`Layout`; ``sides``: (motions, events), 1 or -1: sign of an event's function, NaN where its
     first value tells; 0: not watched; ``times``: of the events' last ones, NaN before; ``peaks``: (motions, watched);
-    ``inputs``: (motions, inputs); ``samples``: (motions, times, states), NaN beyond the ends.
+    ``inputs``: (motions, inputs), as ``Layout.all_inputs``; ``samples``: (motions, times, states), NaN beyond ends.
     """
 
     def __init__(self, layout: Layout, count: int, samples: int = 0) -> None:
         states, events, watched = layout.states, len(layout.events), len(layout.watched)
-        sizes = [places.HEAD, states, events, events, watched, len(layout.inputs)]
+        sizes = [places.HEAD, states, events, events, watched, len(layout.all_inputs)]
         ends = np.cumsum(sizes)
         self.records = np.zeros((count, int(ends[-1])))
         head, self.state, self.sides, self.times, self.peaks, self.inputs = np.split(self.records, ends[:-1], axis=1)
@@ -160,7 +165,7 @@ class Loop:
     def start(self, count: int, samples: int = 0) -> Motions:
         """Motions at rest at zero coordinates, inputs as in ``numbers``."""
         motions = Motions(self.layout, count, samples)
-        motions.inputs[:] = [self._given[0].get(name, 0.0) for name in self.layout.inputs]
+        motions.inputs[:] = [self._given[0].get(name, 0.0) for name in self.layout.all_inputs]
         return motions
 
     def advance(
@@ -221,7 +226,7 @@ class _Worker:
     def __init__(self, right: RightSide, layout: Layout) -> None:
         self._right = right
         rows = (24 + LANES * (method.SLOPES + method.COEFFICIENTS)) * layout.states
-        rows += LANES * (places.LANE_ROWS + 4 * len(layout.events) + len(layout.watched))
+        rows += LANES * (places.LANE_ROWS + 4 * len(layout.events) + len(layout.watched) + 2 * len(layout.carried))
         self._room, self._whose = aligned((rows,)), np.zeros(LANES, dtype=np.int64)
 
     def run(self, plan: Integers, settings: Floats, records: Floats, grid: Floats, samples: Floats) -> int:

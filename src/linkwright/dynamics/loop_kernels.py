@@ -35,6 +35,7 @@ from linkwright.dynamics.event_kernels import (
 )
 from linkwright.dynamics.step_kernels import (
     ABSOLUTE,
+    CARRIED,
     COEFFICIENTS,
     END,
     EVENTS,
@@ -92,8 +93,12 @@ def finish(plan: Wholes, record: Reals, lane: Reals, y: Reals, x: Reals, at: int
 
 
 def keep_ends(plan: Wholes, out: Reals, gaps: Reals) -> None:
-    """Events' functions and watched outputs at the ends of the steps."""
+    """Events' functions, watched and carried outputs at the ends of the steps."""
     n, events = plan[FREEDOMS], plan[EVENTS]
+    ends = gaps + 8 * (4 * events + plan[WATCHED] + plan[CARRIED])
+    for i in range(plan[CARRIED]):
+        for at in range(8):
+            ends[i * 8 + at] = out[(n + 1 + events + plan[WATCHED] + i) * 8 + at]
     for e in range(events):
         for at in range(8):
             gaps[(events + e) * 8 + at] = out[(n + 1 + e) * 8 + at]
@@ -200,9 +205,16 @@ def sample(
     record[SAMPLED] = float(number)
 
 
-def move(plan: Wholes, record: Reals, lane: Reals, y: Reals, trial: Reals, k: Reals, gaps: Reals, at: int) -> None:
+def move(
+    plan: Wholes, record: Reals, lane: Reals, y: Reals, trial: Reals, k: Reals, gaps: Reals, x: Reals, at: int
+) -> None:
     """A lane to the end of its step."""
-    states = plan[STATES]
+    states, count = plan[STATES], plan[CARRIED]
+    row, carried = 2 * plan[FREEDOMS] + 1 + plan[INPUTS] - count, gaps + 8 * (4 * plan[EVENTS] + plan[WATCHED])
+    for i in range(count):
+        value = carried[(count + i) * 8 + at]
+        carried[i * 8 + at] = value
+        x[(row + i) * 8 + at] = value
     if lane[LAST * 8 + at] > 0.0:
         lane[TIME * 8 + at] = lane[END * 8 + at]
     else:
@@ -241,6 +253,7 @@ def run(
     k, dense = room + 24 * states, room + (24 + 8 * SLOPES) * states
     lane = dense + 8 * COEFFICIENTS * states
     gaps = lane + 8 * LANE_ROWS
+    carried = gaps + 8 * (4 * events + plan[WATCHED])
     looking = events + plan[WATCHED]
     waiting, active, calls = 0, 1, 0
     for at in range(8):  # lanes without a motion of their own compute with the numbers of the first
@@ -266,13 +279,15 @@ def run(
             for at in range(8):
                 if whose[at] >= 0 and lane[ANEW * 8 + at] > 0.0:
                     record = records + whose[at] * size
+                    for i in range(plan[CARRIED]):
+                        carried[i * 8 + at] = x[(2 * plan[FREEDOMS] + 1 + plan[INPUTS] - plan[CARRIED] + i) * 8 + at]
                     if start_anew(plan, record, settings, lane, y, k, out, gaps, at) == 0:
                         finish(plan, record, lane, y, x, at, NO_START)
                         whose[at] = -1
         if active == 0:
             break
         choose_lengths(whose, lane)
-        step(code, block, x, out, plan, lane, y, trial, k, table)
+        step(code, block, x, out, plan, lane, y, trial, k, table, carried)
         find_errors(y, trial, k, table, settings, plan, lane)
         calls += STAGES
         if judge(plan, whose, lane) > 0:
@@ -290,7 +305,7 @@ def run(
                         find_polynomial(code, block, x, out, plan, lane, y, trial, probe, k, dense, table)
                     locate(code, block, x, out, plan, lane, y, probe, dense, gaps, whose, records, size)
                     for again in range(2):
-                        step(code, block, x, out, plan, lane, y, trial, k, table)
+                        step(code, block, x, out, plan, lane, y, trial, k, table, carried)
                         find_slopes(code, block, x, out, plan, lane, trial, spread(1.0), k + 8 * STAGES * states)
                         calls += STAGES
                         if again == 0:
@@ -306,7 +321,7 @@ def run(
                 if lane[HOLDS * 8 + at] > 0.0:
                     if plan[SAMPLES] > 0:
                         sample(plan, record, lane, y, dense, grid, samples + whose[at] * plan[SAMPLES] * states, at)
-                    move(plan, record, lane, y, trial, k, gaps, at)
+                    move(plan, record, lane, y, trial, k, gaps, x, at)
                     watch(plan, record, gaps + 32 * events, at)
                     if events > 0 and lane[FOUND * 8 + at] > 0.0:
                         outcome = take_events(plan, record, lane, x, gaps, at)

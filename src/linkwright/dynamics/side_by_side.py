@@ -12,8 +12,9 @@ from linkwright.applied_loads.site import Wrench
 from linkwright.core.arrays import Flags, Floats
 from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.loop import Action, Event, Layout, Loop, Motions, Outcome
+from linkwright.dynamics.run import STEADY
 from linkwright.dynamics.switches import gap_name, switch_name
-from linkwright.dynamics.system import Surface, surfaces_of
+from linkwright.dynamics.system import CLOSING_STEPS, Surface, surfaces_of
 from linkwright.formula.program import Program
 from linkwright.formula.trace import Scalar, absolute, sqrt
 
@@ -23,8 +24,8 @@ BEGIN, TURN, SPEED = "run:begin", "run:turn", "run:speed"
 LEFT, BEYOND = "run:left", "run:beyond"
 #: Before the names of loads and actuators whose numbers are found from the machine's cycle.
 _OF_CYCLE = ("limit:", "value:", "middle:")
-#: Change of the rates from turn to turn below which a run is steady, as share of the largest.
-STEADY = 1e-8
+#: Steps of one design; more are needed where its forces are too stiff, or rounding is all that changes.
+MOST_STEPS = 200_000
 
 
 @dataclass(frozen=True)
@@ -68,12 +69,10 @@ class SideBySide:
 
     @property
     def possible(self) -> bool:
-        """Whether one program has the runs of all designs: no stops, no groups without closed form, no numbers of
-        loads that are found from the cycle of each design, and nothing varied but what the program reads."""
+        """Whether one program has the runs of all designs: no stops, no numbers of loads that are
+        found from the cycle of each design, and nothing varied but what the program reads."""
         equation = self.equation
-        if equation.mechanism.stops or equation.states:
-            return False
-        if any(name.startswith(_OF_CYCLE) for name in equation.load_numbers):
+        if equation.mechanism.stops or any(name.startswith(_OF_CYCLE) for name in equation.load_numbers):
             return False
         return all(name in equation.numbers for name in self.varied)
 
@@ -101,7 +100,8 @@ class SideBySide:
         events = [Event(gap_name(k), Action.FLIP, switch_name(k)) for k in numbers]
         events += [Event(LEFT), Event(BEYOND, Action.NOTE)]
         inputs = [*self.varied, *self.equation.switches.names, BEGIN, TURN, SPEED]
-        return Layout(self.equation.free, events, [f"effort:{name}" for name in self.actuators], inputs)
+        carried = {name: f"next:{name}" for name in self.equation.states}
+        return Layout(self.equation.free, events, [f"effort:{name}" for name in self.actuators], inputs, carried)
 
     @cached_property
     def program(self) -> Program:
@@ -125,7 +125,8 @@ class SideBySide:
     def run(self, columns: Mapping[str, Floats], starts: Starts, tolerance: float, threads: int) -> Ends:
         """All designs, ``columns`` (designs,) by address."""
         motions = self._motions(columns, starts)
-        given = {name: motions.inputs[:, place] for place, name in enumerate(self.layout.inputs)}
+        given = {name: motions.inputs[:, place] for place, name in enumerate(self.layout.all_inputs)}
+        self._close(motions, given)
         undecided = self._take_sides(motions, given)
         before = self._kinetic(motions, given)
         met = self._advance(motions, starts, tolerance, threads, ~undecided)
@@ -138,8 +139,8 @@ class SideBySide:
         motions = self.loop.start(count)
         motions.state[:, :n], motions.state[:, n : 2 * n] = starts.coordinates, starts.rates
         motions.until[:] = starts.until
-        inputs = dict(zip(self.layout.inputs, motions.inputs.T, strict=True))
-        for name, column in columns.items():
+        inputs = dict(zip(self.layout.all_inputs, motions.inputs.T, strict=True))
+        for name, column in {**self.equation.states, **columns}.items():
             inputs[name][:] = column
         turns = np.ones(count) if starts.steady else starts.turns
         inputs[BEGIN][:], inputs[TURN][:] = starts.coordinates[:, 0], 2.0 * np.pi * np.nan_to_num(turns)
@@ -148,15 +149,25 @@ class SideBySide:
         motions.sides[:, -1] = np.where(np.isnan(starts.speed), 0.0, np.sign(starts.rates[:, 0] - starts.speed))
         return motions
 
+    def _close(self, motions: Motions, inputs: Mapping[str, Floats]) -> None:
+        """Newton's steps of groups without closed form at the starts."""
+        names = list(self.equation.states)
+        for _step in range(CLOSING_STEPS if names else 0):
+            given = self._given(motions, inputs)
+            found = self.equation.evaluate([f"next:{name}" for name in names], given, len(motions.records))
+            for name, row in zip(names, found, strict=True):
+                inputs[name][:] = row
+
     def _advance(self, motions: Motions, starts: Starts, tolerance: float, threads: int, active: Flags) -> Flags:
         """To the ends; with ``steady`` turn by turn. Whether the turns are made, or two are equal."""
-        n, absolute_errors = len(self.equation.free), tolerance * self._scales(motions)
+        n, errors = len(self.equation.free), tolerance * self._scales(motions)
         met = np.zeros(len(active), dtype=np.bool_)
         before = np.full((len(active), n), np.nan)
         begin = self.layout.inputs.index(BEGIN)
         while active.any():
+            rows = np.flatnonzero(active)
             self.loop.advance(
-                motions, relative=tolerance, absolute=absolute_errors, threads=threads, rows=np.flatnonzero(active)
+                motions, relative=tolerance, absolute=errors, most=MOST_STEPS, threads=threads, rows=rows
             )
             stopped = np.array([each is Outcome.STOPPED for each in motions.outcomes], dtype=np.bool_) & active
             now = motions.state[:, n : 2 * n]
@@ -172,7 +183,7 @@ class SideBySide:
         equation, n = self.equation, len(self.equation.free)
         ways = np.array([1.0 if equation.rotary[name] else equation.mechanism.size for name in equation.free])
         names = [*(f"a:{name}" for name in equation.free), *(f"M:{name}:{name}" for name in equation.free)]
-        given = self._given(motions, dict(zip(self.layout.inputs, motions.inputs.T, strict=True)))
+        given = self._given(motions, dict(zip(self.layout.all_inputs, motions.inputs.T, strict=True)))
         found = np.abs(equation.evaluate(names, given, len(motions.records)))
         found = np.where(np.isfinite(found), found, 0.0)
         rates = np.maximum(np.abs(motions.state[:, n : 2 * n]).T, np.sqrt(found[:n] * ways[:, None])).max(axis=1)
@@ -236,7 +247,7 @@ class SideBySide:
             gap, rate = sign * self.equation.evaluate([gap_name(number), f"rate:{number}"], given, count)
             rates.append(np.where(gap == 0.0, rate, gap))
         up, down = rates[0] > 0.0, rates[1] < 0.0
-        self._set(surface, given, up | ~down)
+        self._set(surface, given, up | ~(down | np.isnan(rates[0])))  # no rate at rest: as if it did not move
         undecided: Flags = ~(up | down) & (rates[0] < 0.0)
         return undecided
 

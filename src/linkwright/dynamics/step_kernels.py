@@ -10,7 +10,7 @@ of the step as in SciPy's ``DOP853``.
 
 from __future__ import annotations
 
-from linkwright.formula.kernel import Reals, Vector, Wholes, invoke, load, maximum, spread, store
+from linkwright.formula.kernel import Reals, Vector, Wholes, invoke, load, maximum, root, spread, store
 
 #: Numbers of the plan of a run.
 FREEDOMS, STATES, EVENTS, WATCHED, CARRIED, INPUTS, INSIDE, SAMPLES = 0, 1, 2, 3, 4, 5, 6, 7
@@ -22,6 +22,8 @@ TIME, LENGTH, NEXT, END, FIFTH, THIRD = 0, 1, 2, 3, 4, 5
 STAGES, SLOPES, COEFFICIENTS = 12, 16, 7
 #: Places in the table of the method: matrix, weights, places of the stages, errors, polynomial.
 MATRIX, WEIGHTS, PLACES, ERRORS, DENSE = 0, 256, 272, 288, 320
+#: Change of the coordinates of groups without closed form that counts as none, rad or m.
+CLOSED = 1e-10
 #: Places in the settings.
 RELATIVE, MOST, ABSOLUTE = 0, 1, 2
 
@@ -37,21 +39,36 @@ def combine(y: Reals, k: Reals, weights: Reals, lane: Reals, to: Reals, states: 
         store(to, i * 8, load(y, i * 8) + h * added)
 
 
+def close(code: int, block: Wholes, x: Reals, out: Reals, plan: Wholes) -> None:
+    """Newton's steps of groups without closed form go on from what they found; accelerations are NaN where they do
+    not come to rest."""
+    n, carried = plan[FREEDOMS], plan[CARRIED]
+    first, row = n + 1 + plan[EVENTS] + plan[WATCHED], 2 * n + 1 + plan[INPUTS] - carried
+    missed = spread(0.0)
+    for again in range(2):
+        for i in range(carried):
+            store(x, (row + i) * 8, load(out, (first + i) * 8))
+        if again == 0:
+            invoke(code, block)
+            for i in range(carried):
+                change = load(out, (first + i) * 8) - load(x, (row + i) * 8)
+                missed = missed + change * change
+    refused = 0.0 * root(CLOSED * CLOSED - missed)
+    for i in range(n + 1):
+        store(out, i * 8, load(out, i * 8) + refused)
+
+
 def evaluate(
     code: int, block: Wholes, x: Reals, out: Reals, plan: Wholes, lane: Reals, source: Reals, share: Vector
 ) -> None:
-    """The outputs at states and a share of the step; groups without closed form twice, from where they were."""
-    n, first = plan[FREEDOMS], plan[FREEDOMS] + 1 + plan[EVENTS] + plan[WATCHED]
+    """The outputs at states and a share of the step."""
+    n = plan[FREEDOMS]
     for i in range(2 * n):
         store(x, i * 8, load(source, i * 8))
     store(x, 16 * n, load(lane, TIME * 8) + share * load(lane, LENGTH * 8))
     invoke(code, block)
     if plan[CARRIED] > 0:
-        for i in range(plan[CARRIED]):
-            store(x, (2 * n + 1 + plan[INPUTS] + i) * 8, load(out, (first + i) * 8))
-        invoke(code, block)
-        for i in range(plan[CARRIED]):
-            store(x, (2 * n + 1 + plan[INPUTS] + i) * 8, load(out, (first + i) * 8))
+        close(code, block, x, out, plan)
 
 
 def find_slopes(
@@ -80,9 +97,12 @@ def step(
     trial: Reals,
     k: Reals,
     table: Reals,
+    carried: Reals,
 ) -> None:
-    """The states after the step in ``trial``, from the first slopes."""
-    states = plan[STATES]
+    """The states after the step in ``trial``, from the first slopes; ``carried``: where Newton's steps begin."""
+    states, row = plan[STATES], 2 * plan[FREEDOMS] + 1 + plan[INPUTS] - plan[CARRIED]
+    for i in range(plan[CARRIED]):
+        store(x, (row + i) * 8, load(carried, i * 8))
     for s in range(1, STAGES):
         combine(y, k, table + MATRIX + 16 * s, lane, trial, states, s)
         find_slopes(code, block, x, out, plan, lane, trial, spread(table[PLACES + s]), k + s * states * 8)
@@ -151,4 +171,4 @@ def within(y: Reals, dense: Reals, share: Vector, to: Reals, states: int) -> Non
         store(to, i * 8, load(y, i * 8) + value)
 
 
-STEP_KERNELS = (combine, evaluate, find_slopes, step, find_errors, find_polynomial, within)
+STEP_KERNELS = (combine, close, evaluate, find_slopes, step, find_errors, find_polynomial, within)
