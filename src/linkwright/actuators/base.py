@@ -8,8 +8,8 @@ A kind is one file with one frozen dataclass, registered under the word of its k
         torque: float = base.quantity("torque", minimum=0, doc="…")
 
 An actuator is a load: its ``wrenches`` are traced with those of the loads. What switches it is a plain
-``select(a < b, …)`` with a - b continuous in the state (the power, say, and not another selection by the sign of a
-rate), since runs find the instant from the zero of that. Reading with all findings, JSON Schema,
+``select(a < b, …)`` with a - b continuous in the state (no selection by the sign of a rate), since runs find the
+instant from the zero of that. Reading with all findings, JSON Schema,
 addresses of dimensions (``actuators.NAME.FIELD``) and writing follow from the declared fields.
 """
 
@@ -76,12 +76,12 @@ class Actuator(Load):
         """The same where all is asked of it that it has: one that is controlled at its limit."""
         return self
 
-    def within_times(self, site: Site, effort: Scalar) -> Scalar:
-        """An effort while the actuator acts, zero before and after."""
+    def within_times(self, site: Site, effort: Scalar, otherwise: Scalar = 0.0) -> Scalar:
+        """An effort while the actuator acts, another one, or none, before and after."""
         if self.begin is not None:
-            effort = select(site.time < site.dimension("from"), 0.0, effort)
+            effort = select(site.time < site.dimension("from"), otherwise, effort)
         if self.until is not None:
-            effort = select(site.time < site.dimension("until"), effort, 0.0)
+            effort = select(site.time < site.dimension("until"), effort, otherwise)
         return effort
 
 

@@ -13,7 +13,7 @@ from linkwright.applied_loads import base
 from linkwright.applied_loads.site import Site, Wrench
 from linkwright.fields.tables import Flag
 from linkwright.formula.late_import import numpy as np
-from linkwright.formula.trace import Scalar, select
+from linkwright.formula.trace import Scalar, select, sign
 from linkwright.words import _
 
 if TYPE_CHECKING:
@@ -121,17 +121,26 @@ class Motor(AlongCoordinate):
         return self.sense(site) * self._transmission(site) * self.rate(site)
 
     def wrenches(self, site: Site) -> list[Wrench]:
-        sense, i, speed = self.sense(site), self._transmission(site), self.motor_speed(site)
-        torque = self.within_times(site, self.torque(site, speed))
-        effort = sense * i * torque
-        if self.efficiency is not None or self.self_locking:
-            driving = torque * speed > 0.0
-            if self.efficiency is not None:
-                eta = site.dimension("efficiency")
-                effort = effort * select(driving, eta, 1.0 / eta)
-            if self.self_locking:
-                effort = effort + select(driving, 0.0, self._held(site))
-        return self.acting(site, effort) + (self._rotor(site, i) if self.inertia is not None else [])
+        i, speed = self._transmission(site), self.motor_speed(site)
+        torque = self.torque(site, speed)
+
+        def chosen(ahead: tuple[Scalar, Scalar], back: tuple[Scalar, Scalar]) -> Scalar:
+            """Of what holds where it turns ahead or back the first while it drives, the second while it is driven.
+
+            By the speed and the torque, not by the power, which at rest would not tell one side from the other.
+            """
+            return select(speed > 0.0, select(torque > 0.0, *ahead), select(torque > 0.0, *reversed(back)))
+
+        effort, otherwise = self.sense(site) * i * torque, cast(Scalar, 0.0)
+        if self.efficiency is not None:
+            eta = site.dimension("efficiency")
+            effort = effort * chosen((eta, 1.0 / eta), (eta, 1.0 / eta))
+        if self.self_locking:
+            held = self._held(site)
+            effort = effort + chosen((0.0, -held), (0.0, held))
+            otherwise = select(speed > 0.0, -held, held)
+        found = self.acting(site, self.within_times(site, effort, otherwise))
+        return found + self._rotor(site, i) if self.inertia is not None else found
 
     def _transmission(self, site: Site) -> Scalar:
         """Speed of the motor over the rate of the coordinate, dimensionless or rad/m."""
@@ -139,11 +148,12 @@ class Motor(AlongCoordinate):
         return ratio if self.lead is None else ratio / site.dimension("lead")
 
     def _held(self, site: Site) -> Scalar:
-        """The friction of a gear that locks, on the link; of a screw the torque is on its nut's drive."""
-        rate, holding = self.rate(site), site.dimension("holding")
-        if self.lead is not None:
-            holding = holding / site.dimension("lead")
-        return select(rate > 0.0, -holding, select(rate < 0.0, holding, 0.0))
+        """The friction of a gear that locks, against a motion in which the motor turns ahead; of a screw the torque
+        is on its nut's drive."""
+        holding = self.sense(site) * site.dimension("holding")
+        if self.ratio is not None:
+            holding = holding * sign(site.dimension("ratio"))
+        return holding if self.lead is None else holding / site.dimension("lead")
 
     def _rotor(self, site: Site, i: Scalar) -> list[Wrench]:
         """The wrenches of the rotor's inertia. Its speed is i times that of the link, and that of a moving link
