@@ -92,6 +92,27 @@ def test_a_sliding_block_is_braked() -> None:
     assert lw.release(lw.loads(BLOCK.format(slope=0, mu=0.7)), speed=-1.5).accelerations["driver"] > 0
 
 
+def test_one_block_sticks_while_another_slides() -> None:
+    """On a slope of 20° with friction 0.5 the first holds, on one of 45° with 0.2 the second slides."""
+    text = """
+format: 1
+frame: {points: {O: [0 m, 0 m], P: [1 m, 0 m]}}
+links: {first: {points: [A], mass: 2 kg}, second: {points: [B], mass: 3 kg}}
+joints:
+  one: {kind: prismatic, guide: frame, through: O, direction: 20 deg, block: first, at: A, friction: 0.5}
+  two: {kind: prismatic, guide: frame, through: P, direction: 45 deg, block: second, at: B, friction: 0.2}
+drivers: {a: {slide: one, speed: 1 m/s}, b: {slide: two, speed: 1 m/s}}
+cycle: {duration: 1 s}
+gravity: [0, -9.81 m/s²]
+"""
+    found = lw.release(lw.loads(text))
+    slope = radians(45)
+    expected = {"a": 0.0, "b": -G * (sin(slope) - 0.2 * cos(slope))}
+    assert found.accelerations == pytest.approx(expected, rel=1e-10, abs=1e-10)
+    assert found.outcome == "moves"
+    assert found.forces.balance_residual[0] < 1e-10
+
+
 def test_what_balances_rests() -> None:
     assert lw.release(lw.loads(ROD.format(mass=3, inertia=0.36)), at=radians(-90)).outcome == "rests"
 

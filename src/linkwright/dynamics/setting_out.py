@@ -12,7 +12,9 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import shown
 from linkwright.dynamics.equation import EquationOfMotion
+from linkwright.dynamics.run import run
 from linkwright.dynamics.states import FoundStates, motion_at
+from linkwright.dynamics.system import System
 from linkwright.errors import LinkwrightError
 from linkwright.kinematics.positions import Positions
 from linkwright.words import _
@@ -122,14 +124,38 @@ class SettingOut:
             return [(1.0, held[fitting[0]])], found[fitting[0]], "jams", found
         shares = _between(found)
         if shares is None:
-            raise LinkwrightError(
-                _(
-                    "at rest in this position some joints stick and others slide, which one position does not "
-                    "decide; ask for the motion over a short time: linkwright run FILE --for 1ms",
-                    code="dynamics.sticks_in_part",
-                )
-            )
+            return self._partly()
         return self._stuck(held, shares, found)
+
+    def _partly(self) -> tuple[list[tuple[float, Floats]], Floats, Outcome, list[Floats]]:
+        """Where some joints stick and others slide: what a run finds where it begins."""
+        places = {name: float(q[0]) for name, (q, _w, _a) in self.start.coordinates.items()}
+        rates = {name: float(w[0]) for name, (_q, w, _a) in self.start.coordinates.items()}
+        kept = [name for name in self.equation.names if name not in self.free]
+        found = run(self.equation.source, duration=NEXT, at=places, speed=rates, prescribed=kept)
+        piece = found.pieces[0]
+        system, stick = piece.system, piece.holding.stick
+        system.hold(piece.holding)
+        second, held = system.constrained(0.0, piece.at(np.zeros(1))[:, 0])
+        below = piece.holding.sides.copy()
+        for group in stick:
+            for index, sign in group:
+                below[index] = -sign
+        shares = [(1.0 - float(held[: len(stick)].sum()), self._of_sides(system, below))]
+        for share, group in zip(held.tolist(), stick, strict=False):
+            sides = below.copy()
+            for index, sign in group:
+                sides[index] = sign
+            shares.append((share, self._of_sides(system, sides)))
+        return shares, second[: len(self.free)], "moves", []
+
+    def _of_sides(self, system: System, sides: Floats) -> Floats:
+        """The comparisons, 1 or 0, on sides of surfaces."""
+        found = np.zeros(len(self.equation.switches.names))
+        for surface, above in zip(system.surfaces, sides.tolist(), strict=True):
+            for number, sign in surface.members:
+                found[number] = 1.0 if above * sign > 0.0 else 0.0
+        return found
 
     def _stuck(
         self, held: list[Floats], shares: Floats, found: list[Floats]
