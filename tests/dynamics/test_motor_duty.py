@@ -86,3 +86,10 @@ def test_what_is_refused() -> None:
     weak = DC.replace("3 N·m,", "0.5 N·m,")
     with pytest.raises(lw.LinkwrightError, match="does not come to run steadily"):
         lw.motor_duty(hoist(drive=weak))
+
+
+def test_both_kinds_of_diagrams_of_a_machine() -> None:
+    for kind in ("operating_points", "drive_margin"):
+        assert lw.plot(hoist(drive=SERVO), kind).kind == kind
+    with pytest.raises(lw.LinkwrightError, match="shows one machine"):
+        lw.plot({"a": hoist(drive=SERVO), "b": hoist(drive=DC)}, "operating_points")

@@ -183,7 +183,7 @@ def plot(
         kind: ``sva`` (of a motion the default), ``angles``, ``paths``, ``torque`` (of forces the default), ``power``,
             ``energy``, ``speed`` (of steady running the default), ``reactions``, ``hodograph``, ``hodographs``,
             ``shaking``, ``velocity_polygon``, ``acceleration_polygon``, ``force_polygon``, ``free_bodies``,
-            ``flow_chart``. Of a comparison
+            ``flow_chart``, ``drive_margin``, ``operating_points``. Of a comparison
             ``comparison`` (the default) or ``pivot_hodograph``, of a sensitivity ``sensitivity`` or
             ``sensitivity_curves``; most other results have one kind each.
         of: outputs, links, points or joints that it is about: ``"jaw"``, ``"guide"``, ``"C"``, ``"jaw.D.x"``;

@@ -58,9 +58,12 @@ def draw_operating_points(result: MotorDuty, request: Request) -> Figure:
     figure = new_figure(request.size or (6.4, 4.6))
     axes = figure.subplots()
     axes.axhline(0.0, color=FAINT, linewidth=0.8)
+    braking = float(result.torque.min()) < 0.0 and result.motor.controlled
     for name, (torque, colour, dash) in curves.items():
         (line,) = axes.plot(RPM * speed, unit.factor * torque, color=colour, linestyle=dash)
         legend.add(name, line)
+        if braking:
+            axes.plot(RPM * speed, -unit.factor * torque, color=colour, linestyle=dash)
     (loop,) = axes.plot(RPM * result.speed, unit.factor * result.torque, color=COLOURS[0])
     legend.add(translate(_("operating points over the cycle")), loop)
     mean = float(np.sqrt(np.trapezoid(result.speed**2, result.time) / np.ptp(result.time)))
