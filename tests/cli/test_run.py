@@ -97,6 +97,17 @@ def test_files(rod: str, tmp_path: Path) -> None:
     assert json.loads(sheet.read_text("utf-8"))["end [s]"] == 1.0
 
 
+def test_many_designs_run_side_by_side(wheel: str, tmp_path: Path) -> None:
+    path = tmp_path / "runs.csv"
+    shown("run", wheel, "--vary", "actuators.motor.torque=2..4N·m:3", "--output", str(path))
+    rows = list(csv.DictReader(path.read_text("utf-8").splitlines()))
+    found = [float(row["driver.rate"]) for row in rows]
+    expected = [10 * torque + (1 - 10 * torque) * math.exp(-0.8) for torque in (2, 3, 4)]
+    assert found == pytest.approx(expected, rel=1e-7)
+    assert data("run", wheel, "--vary", "wheel.inertia=0.5, 1 kg·m²")["outcomes"] == ["ended", "ended"]
+    is_refused(["run", wheel, "--vary", "wheel.inertia=0.5, 1 kg·m²", "--stiff"], "cli.not_together")
+
+
 def test_what_is_not_reached_is_told(wheel: str) -> None:
     ended = run("run", wheel, "--until", "rest", "--at-most", "1s")
     assert ended.code == 1

@@ -323,3 +323,48 @@ def test_refusals() -> None:
         lw.equilibrium(lw.loads(DOUBLE_PENDULUM), ranges=(0.0, 1.0))
     with pytest.raises(lw.LinkwrightError, match="not stable"):
         lw.equilibrium(mechanism)[0].flexibility("T")
+
+
+def test_a_lid_between_stops() -> None:
+    """Stops hold it shut and open, with the moments by hand; between them it balances but does not stay."""
+    lid = lw.load("gallery:lid_on_gas_strut")
+
+    def moment(q: float) -> float:
+        x, y = 0.2 * math.cos(q) - 0.3, 0.2 * math.sin(q) + 0.3
+        length = math.hypot(x, y)
+        push = 200 + 212 * (0.552 - length)
+        return push * 0.2 * (math.cos(q) * y - math.sin(q) * x) / length - 12 * 9.81 * 0.45 * math.cos(q)
+
+    shut, between, opened = lw.equilibrium(lid)
+    assert [each.stop for each in (shut, between, opened)] == ["shut", "", "open"]
+    assert [each.stability for each in (shut, between, opened)] == ["stopped", "unstable", "stopped"]
+    assert shut.contact == pytest.approx(-moment(0.0), rel=1e-12)
+    assert opened.contact == pytest.approx(moment(math.radians(75)), rel=1e-12)
+    assert place(between) == pytest.approx(brentq(moment, 0.1, 1.2, xtol=1e-15), abs=1e-12)
+    work = -sum(moment(q) for q in (np.arange(20000) + 0.5) * place(between) / 20000) * place(between) / 20000
+    assert shut.barriers == (None, pytest.approx(work, rel=1e-6))
+
+
+TRIPLE_ROCKER = """
+format: 1
+name: Triple rocker
+frame: {points: {P: [0 m, 0 m], Q: [4 m, 0 m]}}
+links:
+  left: {points: [P, A], length: 2 m, mass: 2 kg, inertia: 0.7 kg·m²}
+  bar: {points: [A, B], length: 2 m, mass: 2 kg, inertia: 0.7 kg·m²}
+  right: {points: [Q, B], length: 3 m, mass: 3 kg, inertia: 2.3 kg·m²}
+assembly: {B: left}
+driver: {turn: left, about: P, speed: 1 rad/s, start: 40 deg}
+gravity: [0, -9.81 m/s²]
+"""
+
+
+def test_the_other_side_of_a_dead_point() -> None:
+    """A rocker falls through its dead point and hangs: the mirror image, about the line of the fixed pins, of where
+    it balances upside down."""
+    above, below = lw.equilibrium(lw.loads(TRIPLE_ROCKER))
+    assert (above.stability, above.beyond) == ("unstable", False)
+    assert (below.stability, below.beyond) == ("stable", True)
+    assert place(below) == pytest.approx(-place(above), abs=1e-12)
+    assert below.point("B") == pytest.approx(above.point("B") * [1, -1], abs=1e-12)
+    assert below.stiffness == pytest.approx(-above.stiffness, rel=1e-9)

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.cli.errors import NOT_TOGETHER, UsageError
 from linkwright.cli.files import atomic_write, read_model, write_result
 from linkwright.cli.options import Options
 from linkwright.cli.pictures import names
@@ -14,16 +15,12 @@ from linkwright.cli.positions import duration, one_input, one_speed
 from linkwright.cli.session import Session, progress, styled_lines
 from linkwright.cli.solve_text import course_lines
 from linkwright.cli.solving import FINE, Solved
-from linkwright.core.arguments import CURVE_STEPS
 from linkwright.dynamics.run import run
 from linkwright.dynamics.run_text import STEPS, RunText
 from linkwright.errors import Finding
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _
 from linkwright.words.message import in_language
-
-#: Pictures per second of a moving drawing, and their number at most.
-RATE, MOST_FRAMES = 25, 2000
 
 
 def conditions(mechanism: Mechanism, options: Options) -> dict[str, Any]:
@@ -65,6 +62,27 @@ def run_alone(options: Options, session: Session) -> int:
     return int(found.note is not None)
 
 
+def run_many(options: Options, session: Session) -> int:
+    """Runs many designs side by side; 1 where some do not run to their end."""
+    from linkwright.designs.ranges import grid
+    from linkwright.designs.runs_of_designs import run_designs
+    from linkwright.designs.varied_dimensions import varied_ranges
+
+    for name in ("prescribed", "stiff", "columns", "points", "steps"):
+        if getattr(options, name):
+            raise UsageError(NOT_TOGETHER.format(name="--vary", other=f"--{name}"))
+    mechanism, _findings = read_model(options.file, session)
+    settings = conditions(mechanism, options)
+    if options.tolerance is not None:
+        settings["tolerance"] = options.tolerance
+    columns = grid(varied_ranges(mechanism, options.vary, sampled=False))
+    with progress(session, _("designs")) as report:
+        found = run_designs(mechanism, columns, progress=report, **settings)
+    write_result(found, options, session)
+    session.show_result(found, options.output)
+    return int(not found.ok.all())
+
+
 def _course(text: RunText, findings: list[Finding], options: Options, session: Session) -> list[Any]:
     """The course over time, what went wrong with the reading of the model, and notes."""
     share = -(-FINE // text.steps)
@@ -83,8 +101,7 @@ def _draw(text: RunText, options: Options, session: Session) -> None:
         return
     from linkwright.plotting.diagrams.base import plot
 
-    forces = text.run.joint_forces(CURVE_STEPS)
-    diagram = plot(forces, options.kind, of=options.of, language=session.language)
+    diagram = plot(text.run, options.kind, of=options.of, language=session.language)
     path = Path(options.plot)
     atomic_write(path, diagram.content(path.suffix.lower()), force=options.force)
 
@@ -95,8 +112,6 @@ def _animate(text: RunText, options: Options, session: Session) -> None:
         return
     from linkwright.plotting.animation import animate
 
-    frames = min(max(2, round(RATE * text.run.end)), MOST_FRAMES)
-    motion = text.run.motion(frames)
-    moving = animate(motion, paths=names(options.paths), frames=frames, language=session.language)
+    moving = animate(text.run, paths=names(options.paths), language=session.language)
     with progress(session, _("drawing")) as report:
         moving.save(options.animate, progress=report, force=options.force)

@@ -26,8 +26,10 @@ class Equilibrium:
 
     ``inputs``: coordinates of all drivers, rad or m. ``stability``: ``stable``, ``unstable``, ``neutral`` (in a part
     of the range, or in some direction), ``one_sided`` (it comes back from one side and goes away on the other),
-    ``held`` by friction. ``low``, ``high``: the part of the range in which it rests, where that is no single
-    position (one free input); None else. ``jump``: a load begins or ends to act there.
+    ``held`` by friction, ``stopped``: what acts pushes it against the ``stop``, with ``contact`` N (of an angle N·m).
+    ``beyond``: beyond a dead point of the input, in another assembly mode than in the drawing.
+    ``low``, ``high``: the part of the range in which it rests, where that is no single position (one free input);
+    None else. ``jump``: a load begins or ends to act there.
     ``stiffness`` dS/dq, ``inertia`` and ``damping`` (freedoms, freedoms) along the free inputs (N·m/rad, kg·m²,
     N·m·s/rad, or their mates of inputs that slide); ``shares``: what every load contributes along them, N·m or N.
     ``barriers``: work (J) that takes the machine from here over the next unstable position on the side of smaller and
@@ -46,6 +48,9 @@ class Equilibrium:
     low: float | None = None
     high: float | None = None
     jump: bool = False
+    beyond: bool = False
+    stop: str = ""
+    contact: float = 0.0
     barriers: tuple[float | None, float | None] = (None, None)
 
     @property
@@ -56,13 +61,17 @@ class Equilibrium:
     @property
     def frequencies(self) -> Floats:
         """Natural frequencies of small vibrations without damping, (modes,) Hz; NaN of modes that move away, empty
-        where some motion has no inertia."""
-        return np.empty(0) if self.vibrations is None else self.vibrations.frequencies
+        where some motion has no inertia, and at a stop."""
+        return np.empty(0) if self.vibrations is None or self.stop else self.vibrations.frequencies
 
     @property
     def damping_ratios(self) -> Floats:
         """Damping ratios of the modes, (modes,); 1 and more: it creeps back without vibrating."""
-        return np.empty(0) if self.vibrations is None else self.vibrations.damping_ratios
+        return np.empty(0) if self.vibrations is None or self.stop else self.vibrations.damping_ratios
+
+    def point(self, name: str) -> Floats:
+        """Place (2,) of a point in this position, m; raises LinkwrightError for an unknown one."""
+        return self.forces.point(name, self.place[:, None])[0][:, 0]
 
     def flexibility(self, point: str) -> Floats:
         """Displacement (2, 2), m/N, of a point by a small force on it: column x by a force along x.
@@ -178,12 +187,14 @@ class Equilibria(Tabular, Sequence[Equilibrium]):
         """The positions as columns, SI."""
         found: dict[str, Any] = {}
         for name in self.forces.equation.names:
-            found[f"{name} [{si_unit(self.dimension_of(name))}]"] = [each.inputs[name] for each in self.positions]
+            found[f"{name} [{si_unit(self.dimension_of(name))}]"] = np.array(
+                [each.inputs[name] for each in self.positions]
+            )
         found["stability"] = [each.stability for each in self.positions]
         for mode in range(len(self.forces.free)):
             number = "" if len(self.forces.free) == 1 else f"_{mode + 1}"
-            found[f"frequency{number} [Hz]"] = [_at(each.frequencies, mode) for each in self.positions]
-            found[f"damping_ratio{number}"] = [_at(each.damping_ratios, mode) for each in self.positions]
+            found[f"frequency{number} [Hz]"] = np.array([_at(each.frequencies, mode) for each in self])
+            found[f"damping_ratio{number}"] = np.array([_at(each.damping_ratios, mode) for each in self])
         return found
 
     @property
@@ -213,6 +224,9 @@ def _data(each: Equilibrium, names: Sequence[str]) -> dict[str, Any]:
         "from": each.low,
         "to": each.high,
         "jump": each.jump,
+        "beyond_dead_point": each.beyond,
+        "stop": each.stop or None,
+        "contact": each.contact if each.stop else None,
         "frequencies": _numbers(each.frequencies),
         "damping_ratios": _numbers(each.damping_ratios),
         "barriers": list(each.barriers),

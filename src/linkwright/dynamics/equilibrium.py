@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from linkwright.core.arguments import real, require, require_pair
 from linkwright.dynamics.equilibria import Equilibria
+from linkwright.dynamics.extent import Extents
 from linkwright.dynamics.one_freedom import OneFreedom
 from linkwright.dynamics.several_freedoms import SeveralFreedoms
 from linkwright.dynamics.static_forces import StaticForces
@@ -70,8 +71,26 @@ def equilibrium(
         )
     asked = _ranges(forces, ranges)
     if forces.freedoms == 1:
-        return OneFreedom(forces, asked.get(forces.free[0])).found
+        return _of_one(forces, asked.get(forces.free[0]))
     return SeveralFreedoms(forces, asked).found
+
+
+def _of_one(forces: StaticForces, asked: tuple[float, float] | None) -> Equilibria:
+    extents = Extents(forces, asked)
+    first, *beyond = [OneFreedom(forces, each) for each in extents.all]
+    positions = [*first.positions, *(found for each in beyond for found in each.positions)]
+    largest, least = first.holding()
+    drawn = first.extent
+    return Equilibria(
+        forces,
+        tuple(positions),
+        {forces.free[0]: (drawn.low, drawn.high)},
+        drawn.closed,
+        extents.reach,
+        largest,
+        least,
+        first.work_of_turn,
+    )
 
 
 def _held(mechanism: Mechanism, held: Mapping[str, float] | None) -> dict[str, float]:

@@ -9,7 +9,6 @@ from linkwright.dynamics.equilibria import Equilibrium
 from linkwright.dynamics.static_forces import StaticForces
 from linkwright.dynamics.vibration import Stability, small_vibrations, stability
 
-TURN = 2.0 * np.pi
 #: Efforts of this share of what acts are zero; positions nearer than this, in rad or shares of the size, one; shares
 #: of loads that are rounding.
 BALANCED, SAME, ROUNDING = 1e-10, 1e-6, 1e-13

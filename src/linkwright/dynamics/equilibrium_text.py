@@ -22,6 +22,7 @@ STABILITY = {
     "neutral": _("neutral"),
     "one_sided": _("unstable to one side"),
     "held": _("held by friction"),
+    "stopped": _("rests at stop {stop}"),
 }
 #: Work of a turn, as share of the effort's size over a turn, that is rounding.
 NO_WORK = 1e-9
@@ -56,16 +57,23 @@ def _positions(found: Equilibria) -> Table:
     damped = any((np.nan_to_num(each.damping_ratios) > 0.0).any() for each in found)
     barred = any(barrier is not None for each in found for barrier in each.barriers)
     head: list[str] = ["", *names, _("equilibrium")]
+    beyond = any(each.beyond for each in found)
+    head += [_("assembly")] * beyond
     head += [_("natural frequency")] * vibrates + [_("damping ratio")] * damped
     head += [_("energy barrier downwards"), _("energy barrier upwards")] * barred
     rows: list[list[Cell]] = []
     for number, each in enumerate(found, 1):
-        row: list[Cell] = [number, *(_place(found, each, name) for name in names), STABILITY[each.stability]]
+        row: list[Cell] = [number, *(_place(found, each, name) for name in names), _state(each)]
+        row += [_("beyond a dead point") if each.beyond else _("as drawn")] * beyond
         row += [_several(each.frequencies, "frequency")] * vibrates
         row += [_several(each.damping_ratios, "")] * damped
         row += [None if barrier is None else Amount(barrier, "energy") for barrier in each.barriers] * barred
         rows.append(row)
-    return Table(head, rows, ">" + ">" * len(names) + "<" + ">" * 4)
+    return Table(head, rows, ">" + ">" * len(names) + "<" + "<" * beyond + ">" * 4)
+
+
+def _state(each: Equilibrium) -> Message:
+    return STABILITY[each.stability].format(stop=each.stop) if each.stop else STABILITY[each.stability]
 
 
 def _place(found: Equilibria, each: Equilibrium, name: str) -> Cell:
@@ -94,6 +102,10 @@ def _sums(found: Equilibria, each: Equilibrium, number: int) -> Table:
     total = np.sum([*each.shares.values()], axis=0) if each.shares else np.zeros(len(names))
     size = max((float(np.abs(shares).max()) for shares in each.shares.values()), default=0.0)
     total = np.where(np.abs(total) <= NO_WORK * size, 0.0, total)
+    if total.any():
+        holds = _("stop {stop}", stop=each.stop) if each.stop else _("friction")
+        rows.append([holds, *(Amount(-float(s), kind) for s, kind in zip(total, kinds, strict=True))])
+        total = 0.0 * total
     rows.append([_("sum"), *(Amount(float(s), kind) for s, kind in zip(total, kinds, strict=True))])
     return Table(head, rows, notes=_worked(found, each))
 
@@ -119,10 +131,12 @@ def _worked(found: Equilibria, each: Equilibrium) -> list[Message]:
     turns = found.dimension_of(found.forces.free[0]) == "angle"
     stiffness, inertia, damping = (float(m[0, 0]) for m in (each.stiffness, each.inertia, each.damping))
     units = ("N·m/rad", "kg·m²", "N·m·s/rad") if turns else ("N/m", "kg", "N·s/m")
-    notes = [
-        _("stiffness K = dS/dq = {value} {unit}: {verdict}", value=f"{stiffness:.7g}", unit=units[0],
-          verdict=STABILITY[each.stability])
-    ]  # fmt: skip
+    if each.stop:
+        angle = found.mechanism.stops[each.stop].of.dimension == "angle"
+        contact = shown(each.contact, "torque" if angle else "force")
+        return [_("the stop {stop} pushes back with {contact}", stop=each.stop, contact=contact)]
+    value, verdict = f"{stiffness:.7g}", _state(each)
+    notes = [_("stiffness K = dS/dq = {value} {unit}: {verdict}", value=value, unit=units[0], verdict=verdict)]
     frequency = each.frequencies[0] if len(each.frequencies) else float("nan")
     if np.isfinite(frequency):
         notes.append(
@@ -156,9 +170,8 @@ def _moved(found: Equilibria) -> Table:
         places = [Amount(float(value), kind, 7) for value, kind in zip(each.inputs, kinds, strict=True)]
         force = ", ".join(shown(float(value), "force") for value in each.force)
         rows.append([number + 1, each.point, force, *lengths, *places])
-    return Table(
-        head, rows, "><<" + ">" * 12, notes=[_gives_way(each) for _n, each in found.moved if each.carried < 1]
-    )
+    notes = [_gives_way(each) for _number, each in found.moved if each.carried < 1.0]
+    return Table(head, rows, "><<" + ">" * 12, notes=notes)
 
 
 def _gives_way(each: Displacement) -> Message:

@@ -3,84 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NoReturn
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.quantity import shown
-from linkwright.drivers.constant_speed import ConstantSpeed
-from linkwright.drivers.free import Free
-from linkwright.dynamics.equilibria import Equilibria, Equilibrium, Holding
-from linkwright.dynamics.equilibrium_search import BALANCED, SAME, TURN, EquilibriumSearch
+from linkwright.dynamics.equilibria import Equilibrium, Holding
+from linkwright.dynamics.equilibrium_search import BALANCED, SAME, EquilibriumSearch
+from linkwright.dynamics.extent import Extent
 from linkwright.dynamics.static_forces import StaticForces
 from linkwright.dynamics.vibration import Stability
 from linkwright.dynamics.zeros import Sampled, Zero
-from linkwright.errors import RequestError
-from linkwright.kinematics.cycle import time_span
-from linkwright.kinematics.input_range import FARTHEST, InputRange, input_range
-from linkwright.mechanism.mechanism import Mechanism
-from linkwright.words import _
-
-#: Steps of a turn, or of a range, to begin with.
-STEPS = 360
-
-
-@dataclass(frozen=True)
-class _Range:
-    """Where the one free input is searched; ``closed``: the ends are one position."""
-
-    low: float
-    high: float
-    closed: bool
-    reach: InputRange
 
 
 class OneFreedom(EquilibriumSearch):
-    """All positions at rest along one free input."""
+    """All positions at rest along one free input, in one extent of it."""
 
-    def __init__(self, forces: StaticForces, asked: tuple[float, float] | None) -> None:
-        super().__init__(forces)
-        self.name = forces.free[0]
-        self.rotary = forces.equation.rotary[self.name]
-        self.range = self._range(asked)
-        self.scale = self.sizes(self._places[None])
-
-    # range ------------------------------------------------------------------------------------------------
-    def _range(self, asked: tuple[float, float] | None) -> _Range:
-        reach = input_range(_at_rest(self.forces), self.name)
-        start, size = float(self.forces.start[0]), self.forces.mechanism.size
-        low = -np.inf if reach.start is None else reach.start
-        high = np.inf if reach.end is None else reach.end
-        if self.rotary and reach.full:
-            turns = _turns(self.forces, self.name)
-            low, high = asked or (0.0, TURN * turns)
-            return _Range(low, high, asked is None, reach)
-        if asked is not None:
-            low, high = max(low, asked[0]), min(high, asked[1])
-            if not low < high:
-                _out_of_reach(self.forces, asked, reach)
-            return _Range(low, high, False, reach)
-        far = FARTHEST * size
-        return _Range(max(low, start - far), min(high, start + far), False, reach)
-
-    @cached_property
-    def _places(self) -> Floats:
-        """Places to begin with: even over full turns, denser near the ends of a range, near the start of a slide that
-        has none."""
-        low, high = self.range.low, self.range.high
-        steps = max(STEPS, round(STEPS * (high - low) / TURN)) if self.rotary else STEPS
-        share = np.linspace(0.0, 1.0, steps + 1)
-        if self.range.reach.full and not self.rotary:
-            start, size = float(self.forces.start[0]), self.forces.mechanism.size
-            first, last = np.arcsinh((np.array([low, high]) - start) / (0.1 * size))
-            wide = np.linspace(float(first), float(last), steps + 1)
-            return np.asarray(start + 0.1 * size * np.sinh(wide))
-        if self.range.reach.full:
-            return np.asarray(low + (high - low) * share)
-        return np.asarray(0.5 * (low + high) - 0.5 * (high - low) * np.cos(np.pi * share))
+    def __init__(self, forces: StaticForces, extent: Extent) -> None:
+        super().__init__(forces.of(extent.modes))
+        self.name, self.extent = forces.free[0], extent
+        rotary, start = forces.equation.rotary[self.name], float(forces.start[0])
+        self.places = extent.places(rotary, start, forces.mechanism.size)
+        self.scale = self.sizes(self.places[None])
 
     # efforts ----------------------------------------------------------------------------------------------
     def _effort(self, sense: int) -> Sampled:
@@ -91,7 +35,7 @@ class OneFreedom(EquilibriumSearch):
             value, slope, outcome = self.forces.evaluate(names, q[None], sense)
             return np.where(outcome == 0.0, [value, slope], np.nan)
 
-        return Sampled(function, self._places, float(self.scale[0]))
+        return Sampled(function, self.places, float(self.scale[0]))
 
     @cached_property
     def free_effort(self) -> Sampled:
@@ -104,31 +48,47 @@ class OneFreedom(EquilibriumSearch):
         if not self.forces.directed:
             return None
         up, down = self._effort(1), self._effort(-1)
-        gap = np.abs(up.function(self._places)[0] - down.function(self._places)[0])
+        gap = np.abs(up.function(self.places)[0] - down.function(self.places)[0])
         return (up, down) if np.nanmax(gap, initial=0.0) > BALANCED * self.scale[0] else None
 
     # positions --------------------------------------------------------------------------------------------
     @cached_property
-    def found(self) -> Equilibria:
-        """The result."""
+    def positions(self) -> list[Equilibrium]:
+        """All of them, by coordinate."""
         zeros = self._merged(self.free_effort.zeros)
-        positions = [self._position(each, zeros) for each in zeros] if self.both is None else self._held_parts(zeros)
-        largest, least = self._holding()
-        turn = self.free_effort.integral(self.range.low, self.range.high) if self.range.closed else None
-        return Equilibria(
-            self.forces,
-            tuple(positions),
-            {self.name: (self.range.low, self.range.high)},
-            self.range.closed,
-            self.range.reach,
-            largest,
-            least,
-            turn,
-        )
+        found = [self._position(each, zeros) for each in zeros] if self.both is None else self._held_parts(zeros)
+        found += self._at_stops(found, zeros)
+        return sorted(found, key=lambda each: each.place[0])
+
+    @property
+    def work_of_turn(self) -> float | None:
+        """Work of what acts over full turns, J, with the other sign: zero where it has a potential."""
+        return self.free_effort.integral(self.extent.low, self.extent.high) if self.extent.closed else None
+
+    def _at_stops(self, found: Sequence[Equilibrium], zeros: Sequence[Zero]) -> list[Equilibrium]:
+        """Ends at which a stop keeps it from going on."""
+        up, down = self.both or (self.free_effort, self.free_effort)
+        stopped = []
+        for side, stop in enumerate(self.extent.stops):
+            place = self.extent.high if side else self.extent.low
+            effort = down.value(place) if side else up.value(place)
+            pushed = -effort if side else effort
+            known = (abs(end - place) for each in found for end in (each.low, each.high, each.place[0]) if end)
+            if stop and pushed > BALANCED * self.scale[0] and min(known, default=1.0) > SAME * self.units[0]:
+                at = np.array([place])
+                lever = abs(float(self.forces.stop_levers(stop, at[:, None])[0, 0]))
+                barriers = self._barriers(Zero(place, "rising"), zeros)
+                contact = pushed / lever
+                stopped.append(self._described(at, "stopped", stop=stop, contact=contact, barriers=barriers))
+        return stopped
+
+    def _described(self, q: Floats, state: Stability, **more: object) -> Equilibrium:
+        reach = None if self.extent.closed else (self.extent.low, self.extent.high)
+        return self.described(q, state, reach=reach, beyond=bool(self.extent.modes), **more)
 
     def _merged(self, zeros: Sequence[Zero]) -> list[Zero]:
         """Without those that are found twice, at both ends of full turns too."""
-        lap = self.range.high - self.range.low if self.range.closed else np.inf
+        lap = self.extent.high - self.extent.low if self.extent.closed else np.inf
         found: list[Zero] = []
         for each in zeros:
             known = (abs(other.place - each.place) for other in found)
@@ -137,17 +97,16 @@ class OneFreedom(EquilibriumSearch):
         return found
 
     def _position(self, zero: Zero, zeros: Sequence[Zero]) -> Equilibrium:
-        reach = None if self.range.closed else (self.range.low, self.range.high)
-        more: dict[str, object] = {"reach": reach, "jump": zero.jump}
+        at = np.array([zero.place])
         if zero.kind == "flat":
-            return self.described(np.array([zero.place]), "neutral", low=zero.low, high=zero.high, **more)
+            return self._described(at, "neutral", low=zero.low, high=zero.high)
         kinds: dict[str, Stability] = {"rising": "stable", "falling": "unstable", "touching": "one_sided"}
-        more["barriers"] = self._barriers(zero, zeros) if zero.kind == "rising" else (None, None)
-        return self.described(np.array([zero.place]), kinds[zero.kind], **more)
+        barriers = self._barriers(zero, zeros) if zero.kind == "rising" else (None, None)
+        return self._described(at, kinds[zero.kind], jump=zero.jump, barriers=barriers)
 
     def _barriers(self, zero: Zero, zeros: Sequence[Zero]) -> tuple[float | None, float | None]:
         """Work to the next position on both sides that does not come back."""
-        lap = self.range.high - self.range.low if self.range.closed else 0.0
+        lap = self.extent.high - self.extent.low if self.extent.closed else 0.0
         others = [other.place + turn for other in zeros if other.kind != "rising" for turn in {-lap, 0.0, lap}]
         below = max((each for each in others if each < zero.place), default=None)
         above = min((each for each in others if each > zero.place), default=None)
@@ -156,7 +115,7 @@ class OneFreedom(EquilibriumSearch):
 
     def _work(self, begin: float, end: float) -> float:
         """Work of a hand that moves it slowly, without friction."""
-        effort, (low, high) = self.free_effort, (self.range.low, self.range.high)
+        effort, (low, high) = self.free_effort, (self.extent.low, self.extent.high)
         if low <= end <= high:
             low_end, high_end = sorted((begin, end))
             work = effort.integral(low_end, high_end)
@@ -169,7 +128,7 @@ class OneFreedom(EquilibriumSearch):
         """Parts of the range in which it would have to be pushed up to move up, and down to move down."""
         assert self.both is not None
         up, down = self.both
-        low, high = self.range.low, self.range.high
+        low, high = self.extent.low, self.extent.high
         ends = [each for sampled in (up, down) for zero in sampled.zeros for each in _ends(zero)]
         edges = np.unique(np.clip([low, *ends, high], low, high))
         middles = 0.5 * (edges[:-1] + edges[1:])
@@ -186,11 +145,10 @@ class OneFreedom(EquilibriumSearch):
     def _held_part(self, begin: float, end: float, zeros: Sequence[Zero]) -> Equilibrium:
         inside = [each.place for each in zeros if begin <= each.place <= end]
         place = inside[0] if len(inside) == 1 else 0.5 * (begin + end)
-        reach = None if self.range.closed else (self.range.low, self.range.high)
-        return self.described(np.array([place]), "held", low=begin, high=end, reach=reach)
+        return self._described(np.array([place]), "held", low=begin, high=end)
 
-    def _holding(self) -> tuple[Holding | None, Holding | None]:
-        """Largest and smallest size of the effort over the range; none where it has no bound at an end."""
+    def holding(self) -> tuple[Holding | None, Holding | None]:
+        """Largest and smallest size of the effort over the extent; no largest one towards dead points."""
         effort = self.free_effort
         sizes = np.where(np.isfinite(effort.values), np.abs(effort.values), np.nan)
         if np.isnan(sizes).all():
@@ -199,42 +157,9 @@ class OneFreedom(EquilibriumSearch):
         for index in (int(np.nanargmax(sizes)), int(np.nanargmin(sizes))):
             place = effort.extreme_near(index)
             found.append(Holding(effort.value(place), place))
-        return found[0], found[1]
+        bounded = "dead_point" not in self.extent.ends
+        return found[0] if bounded else None, found[1]
 
 
 def _ends(zero: Zero) -> list[float]:
     return [zero.low, zero.high] if zero.kind == "flat" else [zero.place]
-
-
-def _out_of_reach(forces: StaticForces, asked: tuple[float, float], reach: InputRange) -> NoReturn:
-    kind = "angle" if reach.rotary else "length"
-    raise RequestError(
-        _(
-            "the range from {low} to {high} cannot be reached: {why}",
-            code="dynamics.range_out_of_reach",
-            low=shown(asked[0], kind),
-            high=shown(asked[1], kind),
-            why=reach.explain(),
-        )
-    )
-
-
-def _at_rest(forces: StaticForces) -> Mechanism:
-    """The mechanism with its held inputs where they are held."""
-    drivers = dict(forces.mechanism.drivers)
-    for name, value in forces.held.items():
-        drivers[name] = replace(drivers[name], law=Free(value, 0.0, drivers[name].law.rotary))
-    return replace(forces.mechanism, drivers=drivers)
-
-
-def _turns(forces: StaticForces, name: str) -> int:
-    """After how many turns of an input all wheels are back; 1 where they never are."""
-    mechanism = _at_rest(forces)
-    if not mechanism.higher:
-        return 1
-    drivers = {}
-    for other, driver in mechanism.drivers.items():
-        law = ConstantSpeed(1.0 if other == name else 0.0, driver.law.at(0.0), driver.law.rotary)
-        drivers[other] = replace(driver, law=law)
-    _start, duration, closed = time_span(replace(mechanism, drivers=drivers, loads={}, cycle=None))
-    return max(1, round(duration / TURN)) if closed else 1

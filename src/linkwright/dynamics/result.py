@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from linkwright.core.arguments import STEPS
 from linkwright.core.arrays import Floats
-from linkwright.core.attached import attached
+from linkwright.core.attached import PlotMixin, attached
 from linkwright.core.data import locked
 from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.integration import Piece
@@ -98,7 +98,7 @@ class RunForces(Forces):
 
 
 @dataclass(eq=False)
-class Run:
+class Run(PlotMixin):
     """The motion of a machine under forces.
 
     ``events`` in the order of time; ``residual``: what the kinetic energy less the work of all forces gains or loses,

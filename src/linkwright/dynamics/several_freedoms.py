@@ -9,7 +9,8 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
 from linkwright.dynamics.equilibria import Equilibria
-from linkwright.dynamics.equilibrium_search import BALANCED, SAME, TURN, EquilibriumSearch
+from linkwright.dynamics.equilibrium_search import BALANCED, SAME, EquilibriumSearch
+from linkwright.dynamics.extent import TURN
 from linkwright.dynamics.static_forces import StaticForces
 from linkwright.errors import LinkwrightError
 from linkwright.words import _
@@ -92,7 +93,10 @@ class SeveralFreedoms(EquilibriumSearch):
         if not q.shape[1]:
             return np.zeros(0, dtype=bool)
         left = np.abs(self.forces.efforts(q)) / scale[:, None]
-        return np.asarray((left < BALANCED).all(axis=0) & self.forces.reached(q))
+        free = self.forces.reached(q)
+        if self.forces.stops:
+            free &= (self.forces.stop_gaps(q) >= -SAME).all(axis=0)
+        return np.asarray((left < BALANCED).all(axis=0) & free)
 
     def _inside(self, q: Floats) -> Flags:
         """Within the ranges that were asked for; those that slide, within what was searched."""

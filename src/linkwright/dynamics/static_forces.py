@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from copy import copy
 from functools import cached_property
 
 import numpy as np
@@ -10,9 +11,11 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.inputs import Input
 from linkwright.dynamics.equation import EquationOfMotion
+from linkwright.dynamics.stops import contact_name
 from linkwright.dynamics.switches import gap_name, switch_name
 from linkwright.formula.differentiation import Slopes
 from linkwright.formula.linear_algebra import ZERO, Vec
+from linkwright.formula.numpy_backend import numpy_program
 from linkwright.formula.program import Program
 from linkwright.formula.trace import Scalar, Trace, Value
 from linkwright.kinematics.names import point_key
@@ -21,6 +24,8 @@ from linkwright.mechanism.mechanism import Mechanism
 
 #: Rate, rad/s or m/s, that tells the sense in which a machine at rest begins to move.
 CREEP = 1e-9
+#: Passes in which comparisons are found that hang on others as well.
+PASSES = 3
 #: Before the name of a link whose weight is meant, among the names of loads.
 WEIGHT = "weight of "
 
@@ -38,7 +43,16 @@ class StaticForces:
         self.equation = EquationOfMotion(mechanism, prescribed=self.held)
         self.mechanism, self.time = self.equation.mechanism, time
         self.free = self.equation.free
+        self.modes: Mapping[str, float] = {}
         self._programs: dict[tuple[str, ...], Program] = {}
+
+    def of(self, modes: Mapping[str, float]) -> StaticForces:
+        """The same in other assembly modes, values of parameters by name."""
+        if modes == self.modes:
+            return self
+        other = copy(self)
+        other.modes = modes
+        return other
 
     @property
     def freedoms(self) -> int:
@@ -69,6 +83,8 @@ class StaticForces:
                 values[f"K:{name}:{other}"] = _slope(along, values[f"S:{name}"])
                 values[f"B:{name}:{other}"] = _slope(along, values[f"T:{name}"])
                 values[f"C:{name}:{other}"] = _slope(rate, values[f"S:{name}"])
+            for stop in self.stops:
+                values[f"stop:{stop}:{other}"] = _slope(along, values[f"stop:{stop}"])
         return t, values
 
     def _program(self, names: tuple[str, ...]) -> Program:
@@ -95,15 +111,24 @@ class StaticForces:
             return {}
         gaps = tuple(gap_name(number) for number in range(count))
         rates: dict[str, Floats] = {f"w:{name}": np.full(q.shape[1], CREEP * sense) for name in self.free}
-        found = self._run(self._program(gaps), q, rates)
-        return {switch_name(number): (row > 0.0).astype(float) for number, row in enumerate(found)}
+        held: dict[str, Floats] = {}
+        for _again in range(PASSES):
+            found = self._run(self._program(gaps), q, {**rates, **held})
+            again = {switch_name(number): (row > 0.0).astype(float) for number, row in enumerate(found)}
+            if held and all(np.array_equal(held[name], row) for name, row in again.items()):
+                break
+            held = again
+        return held
 
     def _run(self, program: Program, q: Floats, more: Mapping[str, Floats]) -> Floats:
         given: dict[str, Floats | float] = {f"q:{name}": row for name, row in zip(self.free, q, strict=True)}
         given |= {f"q:{name}": value for name, value in self.held.items()}
         given |= {"time": self.time, **self.states(q), **more}
+        numbers = {**self.equation.numbers, **self.modes}
+        inputs = {name: np.zeros(q.shape[1]) + given.get(name, 0.0) for name in program.positions}
+        values, tables = [numbers[name] for name in program.parameters], self.equation.tables
         with np.errstate(all="ignore"):
-            return self.equation.run(program, given, q.shape[1])
+            return np.asarray(numpy_program(program).run(values, inputs, length=q.shape[1], tables=tables))
 
     def states(self, q: Floats) -> dict[str, Floats]:
         """Chain coordinates of groups without closed form, tracked from the drawing."""
@@ -143,13 +168,34 @@ class StaticForces:
         names = [f"{symbol}:{a}:{b}" for a in self.free for b in self.free]
         return self.evaluate(names, q, sense).reshape(n, n, -1)
 
+    # stops and singular positions -----------------------------------------------------------------------
+    @cached_property
+    def stops(self) -> list[str]:
+        """Names of the stops."""
+        return list(self.mechanism.stops)
+
+    def stop_gaps(self, q: Floats) -> Floats:
+        """How far it is from every stop, (stops, n) rad or m; negative beyond."""
+        return self.evaluate([f"stop:{name}" for name in self.stops], q)
+
+    def stop_levers(self, stop: str, q: Floats) -> Floats:
+        """Derivatives of the gap of a stop by the free inputs, (freedoms, n)."""
+        return self.evaluate([f"stop:{stop}:{name}" for name in self.free], q)
+
+    def weakest_group(self, place: Floats) -> str:
+        """The group that is nearest to a singular position, at a place (freedoms,)."""
+        groups = self.equation.groups
+        qualities = self.evaluate([f"quality:{name}" for name in groups], place[:, None])[:, 0]
+        return groups[int(np.argmin(qualities))]
+
     # what acts --------------------------------------------------------------------------------------------
     @cached_property
     def loads(self) -> list[str]:
         """Names of what acts: weights of links, loads and actuators."""
         weighs = any(self.mechanism.gravity)
         heavy = [f"{WEIGHT}{name}" for name, link in self.mechanism.links.items() if link.mass and weighs]
-        return [*heavy, *self.mechanism.loads]
+        contacts = {contact_name(stop) for stop in self.stops}
+        return [*heavy, *(name for name in self.mechanism.loads if name not in contacts)]
 
     @cached_property
     def _shares(self) -> Program:

@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 
-Stability = Literal["stable", "unstable", "neutral", "one_sided", "held"]
+Stability = Literal["stable", "unstable", "neutral", "one_sided", "held", "stopped"]
 #: Share of the largest stiffness, or asymmetry of it, that is rounding.
 ROUNDING = 1e-9
 

@@ -15,6 +15,7 @@ from linkwright.core.arguments import integer, one_or_more, real, require
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
 from linkwright.core.progress import Progress, current_progress
+from linkwright.dynamics.result import Run
 from linkwright.errors import LinkwrightError, RequestError, require_language
 from linkwright.filesystem import atomic_write, refuse_target
 from linkwright.kinematics.motion import Motion
@@ -105,6 +106,8 @@ def mp4(frames: Iterator[bytes], rate: int) -> bytes:
     return stream.getvalue()
 
 
+#: Positions of a cycle on the screen, and of all that is shown at most.
+FRAMES, MOST_FRAMES = 60, 2000
 FILM_RATE = 25
 LABEL_FRAMES = 12
 #: Smallest and largest width of GIF and MP4, pixels.
@@ -112,7 +115,7 @@ WIDTHS = (16, 3840)
 
 
 def animate(
-    source: Motion | Mechanism,
+    source: Motion | Mechanism | Run,
     *,
     paths: Sequence[str] = (),
     velocities: Names = (),
@@ -121,7 +124,7 @@ def animate(
     reactions_of: Sequence[str] | None = None,
     curves: Sequence[str] = (),
     seconds: float | None = None,
-    frames: int = 60,
+    frames: int | None = None,
     centres: bool = False,
     labels: bool = True,
     size: float | None = None,
@@ -130,14 +133,14 @@ def animate(
     """A moving drawing of a cycle; an open cycle runs to and fro.
 
     Args:
-        source: a motion, or a mechanism whose cycle is solved first.
+        source: a motion, a mechanism whose cycle is solved first, or a run, which is shown in true time.
         paths: points whose paths are shown, with a dot that runs along; default the one that follows a path.
         velocities, accelerations, forces, reactions_of, centres, size, language: as for ``draw``.
         curves: results drawn below with a cursor that runs with the drawing (``"jaw.angle"``, ``"driver.effort"``, a
             column of ``motion.columns()`` or of the forces').
         seconds: time of one cycle on the screen; default that of the motion, within 2 to 6 s.
-        frames: number of positions shown in one cycle; the moving SVG takes more where pins would part visibly
-            between them.
+        frames: number of positions shown in one cycle (default: 60, of a run 25 in a second); the moving SVG takes
+            more where pins would part visibly between them.
         labels: names of the points, moving with them.
 
     Returns:
@@ -146,9 +149,11 @@ def animate(
     Raises:
         LinkwrightError: an unknown name, no position reached, a time or number of frames that makes no sense.
     """
-    require(source, Motion, Mechanism)
+    require(source, Motion, Mechanism, Run)
     require_language(language)
-    if not 2 <= integer("frames", frames) <= 2000:
+    if frames is None:
+        frames = min(max(2, round(FILM_RATE * source.end)), MOST_FRAMES) if isinstance(source, Run) else FRAMES
+    if not 2 <= integer("frames", frames) <= MOST_FRAMES:
         raise RequestError(
             _(
                 "an animation of {frames} frames cannot be made; give 2 to 2000",
@@ -164,6 +169,8 @@ def animate(
                 seconds=seconds,
             )
         )
+    if isinstance(source, Run):
+        source = source.motion(frames)
     machine = source.mechanism if isinstance(source, Motion) else source
     paths, curves = one_or_more(paths) or followed(machine), one_or_more(curves)
     for name in paths:

@@ -68,8 +68,8 @@ linkwright run crusher.yaml --vary actuators.motor.torque=2..6N·m:200 --output 
 @force
 def run(options: Options, session: Session) -> int:
     """Runs the machine and prints or writes the result; 1 where it did not come to its end."""
-    from linkwright.cli.running import run_alone
+    from linkwright.cli.running import run_alone, run_many
 
     if options.at_most is not None and options.for_time is not None:
         raise UsageError(NOT_TOGETHER.format(name="--at-most", other="--for"))
-    return run_alone(options, session)
+    return run_alone(options, session) if options.vary is None else run_many(options, session)

@@ -11,8 +11,9 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, ClassVar, TypeAlias, TypeVar, cast
 
-from linkwright.core.arguments import real, require
+from linkwright.core.arguments import CURVE_STEPS, real, require
 from linkwright.core.attached import PlotMixin
+from linkwright.dynamics.result import Run
 from linkwright.errors import RequestError, about, require_language
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
@@ -294,7 +295,7 @@ def require_options(name: str, options: Sequence[str]) -> None:
 
 def _own_kind(result: object, kind: str | None) -> str | None:
     """The kind for a result that is no motion, forces or running; None for those."""
-    if isinstance(result, Mechanism | Motion | Forces | SteadyRunning | dict | list | tuple):
+    if isinstance(result, Mechanism | Motion | Forces | SteadyRunning | Run | dict | list | tuple):
         return None
     own = [name for name in RESULT_DIAGRAMS if RESULT_DIAGRAMS[name].suits(result)]
     if not own:
@@ -322,7 +323,8 @@ def _sources(result: object, *, static: bool) -> list[PlotInput]:
     else:
         results = [(None, result)]
     for _unused, each in results:
-        require(each, Mechanism, Motion, Forces, SteadyRunning)
+        require(each, Mechanism, Motion, Forces, SteadyRunning, Run)
+    results = [(label, each.joint_forces(CURVE_STEPS) if isinstance(each, Run) else each) for label, each in results]
     found = [PlotInput(each, label, static=static) for label, each in results]
     if not found:
         raise RequestError(_("there is nothing to draw; give at least one result", code="picture.nothing_given"))
