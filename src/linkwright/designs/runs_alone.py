@@ -50,9 +50,10 @@ def _efforts(run: Run, times: Floats) -> dict[str, Floats]:
     side = SideBySide(run.equation)
     if not side.actuators:
         return {}
-    program, found = side.effort_program, []
+    found = []
     for part in run.samples(times).parts:
-        found.append(run.equation.run(program, part.given, len(part.time)))
+        program = (side if part.equation is run.equation else SideBySide(part.equation)).effort_program
+        found.append(part.equation.run(program, part.given, len(part.time)))
     return dict(zip(side.actuators, np.concatenate(found, axis=1), strict=True))
 
 

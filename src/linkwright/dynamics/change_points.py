@@ -8,7 +8,7 @@ same rates and time. Which of the ways a real machine takes is not decided by ri
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -279,6 +279,32 @@ class _Surroundings:
         rows = description.equation.evaluate(accelerations, given, len(beyond))
         off = np.abs(rows[:, :NODES] @ weights.T - rows[:, NODES:]).max() / (np.abs(rows).max() or 1.0)
         return float(off) if off == off else np.inf
+
+
+def read_across(
+    point: ChangePoint, evaluate: Callable[[Mapping[str, Floats]], Floats], given: Mapping[str, Floats]
+) -> Floats:
+    """Outputs (names, n) that ``evaluate`` finds at inputs (n,) by name, read from the nodes close to the point.
+
+    Accelerations at the nodes are those that belong to the rates and times.
+    """
+    equation = point.description.equation
+    names = point.description.names
+    beyond = np.array([point.beyond(q) for q in np.array([given[f"q:{name}"] for name in names]).T])
+    found = evaluate({**given, **point.signs(beyond)})
+    near = np.flatnonzero(np.abs(beyond) < NEAR * point.reach)
+    if not len(near):
+        return found
+    across = {name: np.repeat(row[near], NODES) for name, row in given.items()}
+    nodes = np.tile(point.nodes, len(near))
+    across[f"q:{point.driver}"] = across[f"q:{point.driver}"] - np.repeat(beyond[near], NODES) + nodes
+    across |= point.signs(nodes)
+    across |= {name: np.tile(row, len(near)) for name, row in point.states.items()}
+    seconds = equation.evaluate([f"a:{name}" for name in equation.free], across, len(nodes))
+    across |= {Input("second", name).name: row for name, row in zip(equation.free, seconds, strict=True)}
+    weights = np.array([shares(x, point.reach) for x in beyond[near].tolist()])
+    found[:, near] = np.einsum("kij,ij->ki", evaluate(across).reshape(len(found), len(near), NODES), weights)
+    return found
 
 
 class Bridged:

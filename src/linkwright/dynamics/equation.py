@@ -101,7 +101,12 @@ class EquationOfMotion:
 
     def __getstate__(self) -> dict[str, Any]:
         """All but what every process traces for itself."""
-        return {name: each for name, each in self.__dict__.items() if name not in ("traced", "_source", "switches")}
+        own = ("traced", "_source", "switches", "_programs")
+        return {name: each for name, each in self.__dict__.items() if name not in own}
+
+    @cached_property
+    def _programs(self) -> dict[tuple[str, ...], Program]:
+        return {}
 
     # numbers and inputs ---------------------------------------------------------------------------------
     @cached_property
@@ -253,8 +258,11 @@ class EquationOfMotion:
     # programs -------------------------------------------------------------------------------------------
     def program(self, names: Iterable[str]) -> Program:
         """The program of some outputs."""
-        t, out = self.traced
-        return Program.of(t, {name: out[name] for name in names})
+        key = tuple(names)
+        if key not in self._programs:
+            t, out = self.traced
+            self._programs[key] = Program.of(t, {name: out[name] for name in key})
+        return self._programs[key]
 
     def row_program(self, names: Iterable[str], *, forces: bool) -> Program:
         """The program of rows of the motion, or of it and its forces (see ``core.outputs``), at given accelerations

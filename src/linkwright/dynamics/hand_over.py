@@ -25,7 +25,7 @@ from linkwright.elements import Group
 from linkwright.errors import LinkwrightError
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
-from linkwright.kinematics.assembly import Assembly
+from linkwright.kinematics.assembly import Assembly, modal_groups
 from linkwright.kinematics.groups import counted, state_name
 from linkwright.kinematics.rotations import geared, turn_state
 from linkwright.kinematics.trace import trace_motion
@@ -45,6 +45,7 @@ class Descriptions:
         self.first = first
         self.model = freed(first.source)
         self._made: dict[tuple[str, ...], EquationOfMotion] = {tuple(first.names): first}
+        self._flipping: EquationOfMotion | None = None
         self._trials: dict[tuple[str, ...], _Trial | None] = {}
 
     def better(
@@ -69,6 +70,18 @@ class Descriptions:
             if best is not None:
                 return self._over(now, best[1], place, q, w)
         return None
+
+    def flipping(self, now: Description) -> Description:
+        """The same with assembly modes as inputs."""
+        if now.equation.modes or not modal_groups(now.equation.solver.structure):
+            return now
+        if self._flipping is None:
+            first = self.first
+            fixed = [name for name in first.names if name not in first.free]
+            self._flipping = EquationOfMotion(first.source, prescribed=fixed, flipping=True)
+            self._made[tuple(first.names)] = self._flipping
+        signs = now.equation.solver.assembly.modes
+        return Description(self._flipping, {name: signs[name] for name in self._flipping.modes}, now.states, now.near)
 
     # which joints ---------------------------------------------------------------------------------------
     def _exchanged(self, now: Description, frame: bool) -> Iterator[dict[str, Driver]]:

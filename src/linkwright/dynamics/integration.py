@@ -36,21 +36,22 @@ class Watched:
 
 @dataclass
 class Piece:
-    """The motion between two events; ``ends`` (steps,) s of its steps, ``chains`` (steps,) the chain coordinates of
-    groups without closed form at the ends of steps, near which Newton's method finds those within them."""
+    """The motion between two events; ``ends`` (steps,) s of its steps; inputs that are ``carried`` on as they were at
+    these, and when it ``begun``."""
 
     system: System
     holding: Holding
     begin: float
     dense: list[Any] = field(default_factory=list)
     ends: list[float] = field(default_factory=list)
-    chains: list[Floats] = field(default_factory=list)
+    begun: dict[str, float] = field(default_factory=dict)
+    carried: list[dict[str, float]] = field(default_factory=list)
 
     @classmethod
     def resting(cls, system: System, t: float, y: Floats) -> Piece:
         """The moment at which a machine has come to rest."""
         state = y.copy()
-        return cls(system, system.holding.copy(), t, [lambda _time: state], [t], [system.chain(t, y)])
+        return cls(system, system.holding.copy(), t, [lambda _time: state], [t], system.carried, [system.carried])
 
     @property
     def end(self) -> float:
@@ -87,7 +88,7 @@ class Stepper:
         """The piece so far after each step, with its end, the state there and what happens there, nothing before the
         last: raises StepTooSmall where steps become too small."""
         watched = self._watched(system)
-        found = Piece(system, system.holding.copy(), t)
+        found = Piece(system, system.holding.copy(), t, begun=system.carried)
         before = self._values(system, watched, t, y)
         armed = before > self._near(watched, before)
         solver = SOLVERS[self.method](system, t, y, last, rtol=self.tolerance, atol=self.absolute)
@@ -108,7 +109,6 @@ class Stepper:
                     )
                 )
             dense = solver.dense_output()
-            found.chains.append(system.chain(solver.t, solver.y))
             hit, armed = self._look(system, watched, dense, solver.t_old, solver.t, armed)
             found.dense.append(dense)
             found.ends.append(solver.t if hit is None else hit[0])
@@ -130,7 +130,7 @@ class Stepper:
         found += [Watched("stop", k) for k in range(len(system.stops)) if k not in holding.touch]
         found += [Watched("slip", k, sense) for k in range(len(holding.stick)) for sense in (1.0, -1.0)]
         found += [Watched("leave", k) for k in range(len(holding.touch))]
-        return found
+        return [*found, Watched("singular", 0)] if system.equation.groups else found
 
     def _values(self, system: System, watched: list[Watched], t: float, y: Floats) -> Floats:
         """Values of what is watched, and those of the ends behind them."""
@@ -146,6 +146,8 @@ class Stepper:
             elif each.kind == "slip":
                 share = held[each.number]
                 found.append(share if each.sense > 0.0 else 1.0 - share)
+            elif each.kind == "singular":
+                found.append(system.margin)
             else:
                 found.append(held[sticking + each.number])
         return np.append(found, self.ends(t, y))

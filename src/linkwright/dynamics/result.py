@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
@@ -22,7 +22,7 @@ from linkwright.formula.trace import Scalar
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.positions import Positions
 from linkwright.kinetostatics.forces import Forces
-from linkwright.kinetostatics.solver import in_words
+from linkwright.kinetostatics.solver import ForceSolver, in_words
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import Message, _, pgettext
 
@@ -37,6 +37,8 @@ KINDS: Mapping[str, Message] = {
     "rest": _("at rest"),
     "steady": _("steady: a turn is as the one before"),
     "turns": _("the turns are made"),
+    "dead_point": _("near a dead point of the driver: another joint's coordinate leads on"),
+    "change_point": _("at a change point, through which it goes on smoothly"),
 }
 
 
@@ -92,7 +94,7 @@ class RunForces(Forces):
         assert isinstance(self.motion, RunMotion)
         return self.motion.samples.rows(names, forces=True)
 
-    def evaluate_traced(self, outputs: dict[str, Scalar]) -> Floats:
+    def evaluate_traced(self, outputs: Callable[[ForceSolver], dict[str, Scalar]]) -> Floats:
         assert isinstance(self.motion, RunMotion)
         return self.motion.samples.values(outputs)
 

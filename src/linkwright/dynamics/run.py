@@ -14,6 +14,7 @@ from linkwright.core.progress import Progress, current_progress
 from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.integration import AT_ONCE, Method, Piece, Stepper, StepTooSmall, Watched
 from linkwright.dynamics.result import Happening, Run
+from linkwright.dynamics.singular import SingularPositions, Stretch
 from linkwright.dynamics.switches import gap_name
 from linkwright.dynamics.system import ZERO, Holding, System
 from linkwright.errors import LinkwrightError, RequestError
@@ -26,6 +27,8 @@ from linkwright.words.message import together
 
 #: Below this share of the fastest approach so far a stop is no longer bounced off.
 BOUNCES = 1e-6
+#: Below this share of the largest inertia so far there is none.
+MASSLESS = 1e-6
 #: Change of the speed from turn to turn below which a run is steady, as share of the speed.
 STEADY = 1e-8
 #: How long a run is without other conditions, and one that waits for rest or steadiness at most, s.
@@ -146,8 +149,8 @@ class _Course:
         progress: Progress | None,
     ) -> None:
         self.mechanism, self.conditions, self.progress = mechanism, conditions, progress
-        self.equation = EquationOfMotion(mechanism, prescribed=conditions.prescribed)
-        if not self.equation.free:
+        self.first = EquationOfMotion(mechanism, prescribed=conditions.prescribed)
+        if not self.first.free:
             raise LinkwrightError(
                 _(
                     "all drivers of {name!r} are prescribed, so nothing is left that forces could move; leave one "
@@ -156,10 +159,11 @@ class _Course:
                     name=mechanism.name,
                 )
             )
-        self.system = System(self.equation)
+        self.positions, self.t = SingularPositions(self.first), 0.0
+        self.system, self.y = self._start()
         self.end = _End.of(conditions)
-        self.t, self.y = 0.0, self._start()
-        self.begin = self.y[: len(self.equation.free)].copy()
+        self.begin = self.system.drivers(self.t, self.y)[self.first.free[0]][0]
+        self.heaviest = np.zeros(len(self.equation.free))
         self.fastest: dict[int, float] = {}
         self.lost = 0.0
         self.at_once, self.held = 0, 0
@@ -167,20 +171,36 @@ class _Course:
         self.happened: list[Happening] = []
         self.sections: list[Floats] = []
         self.residual, self.largest = 0.0, 0.0
-        self.stepper = Stepper(tolerance, self._absolute(tolerance), method, self._ends)
+        self.tolerance = tolerance
+        self.stepper = Stepper(tolerance, self._absolute(), method, self._ends)
+
+    @property
+    def equation(self) -> EquationOfMotion:
+        """The equation of motion by which it goes now."""
+        return self.system.equation
 
     # the start ------------------------------------------------------------------------------------------
-    def _start(self) -> Floats:
-        equation = self.equation
-        drawn = dict(zip(equation.names, equation.start.tolist(), strict=True))
-        q = [self.conditions.at.get(name, drawn[name]) for name in equation.free]
-        w = [self.conditions.speed.get(name, 0.0) for name in equation.free]
-        return np.array([*q, *w, 0.0])
+    def _start(self) -> tuple[System, Floats]:
+        first, laws = self.first, self.mechanism.drivers
+        q, w = first.start.copy(), np.zeros(len(first.names))
+        for k, name in enumerate(first.names):
+            if name in first.free:
+                q[k], w[k] = self.conditions.at.get(name, q[k]), self.conditions.speed.get(name, 0.0)
+            else:
+                q[k], w[k] = (float(each[0]) for each in laws[name].law.coordinate(np.zeros(1))[:2])
+        stretch, q, w = self.positions.first(q, w)
+        return System(stretch), self._state(stretch, q, w, 0.0)
 
-    def _absolute(self, tolerance: float) -> Floats:
+    @staticmethod
+    def _state(stretch: Stretch, q: Floats, w: Floats, work: float) -> Floats:
+        equation = stretch.description.equation
+        own = [equation.names.index(name) for name in equation.free]
+        return np.array([*q[own], *w[own], work])
+
+    def _absolute(self) -> Floats:
         """Absolute errors of a step, from what forces do in the first radian, or the size of the machine."""
         n, system = len(self.equation.free), self.system
-        out = system.evaluate(system.full, 0.0, self.y).copy()
+        out = system.evaluate(system.full, self.t, self.y).copy()
         if out[system.place["outcome"]] != 0.0 or not np.isfinite(out[: n + 1]).all():
             self._refuse_start(out)
         ways = [1.0 if self.equation.rotary[name] else self.mechanism.size for name in self.equation.free]
@@ -188,7 +208,7 @@ class _Course:
         rates = np.maximum(w, np.sqrt(np.abs(out[:n]) * ways))
         rates = np.where(rates > 0.0, rates, 1.0)
         energy = 0.5 * float(rates @ np.abs(system.mass(out)) @ rates)
-        return tolerance * np.array([*ways, *rates, energy or 1.0])
+        return self.tolerance * np.array([*ways, *rates, energy or 1.0])
 
     def _refuse_start(self, out: Floats) -> None:
         where = self._where(self.y)
@@ -201,35 +221,43 @@ class _Course:
                     where=where,
                 )
             )
+        self._refuse_without_inertia()
+
+    def _refuse_without_inertia(self) -> None:
         raise LinkwrightError(
             _(
                 "nothing with a mass moves with the input of {name!r} at {where}, so forces give it no acceleration; "
                 "give its links masses and moments of inertia, or begin at another position",
                 code="dynamics.no_inertia",
                 name=self.mechanism.name,
-                where=where,
+                where=self._where(self.y),
             )
         )
 
     def _where(self, y: Floats) -> str:
-        """The free coordinates in words."""
-        rotary = self.equation.rotary
-        pairs = zip(self.equation.free, y.tolist(), strict=False)
-        return together([coordinate_text(name, value, rotary[name]) for name, value in pairs])
+        """The free drivers' coordinates in words."""
+        found, rotary = self.system.drivers(self.t, y), self.first.rotary
+        return together([coordinate_text(name, found[name][0], rotary[name]) for name in self.first.free])
 
     # the ends -------------------------------------------------------------------------------------------
     def _ends(self, t: float, y: Floats) -> Floats:
         """Positive until the turns are made, or the next full turn is complete."""
         if self.end.turns is not None:
-            return np.array([2.0 * math.pi * self.end.turns - abs(y[0] - self.begin[0])])
+            return np.array([2.0 * math.pi * self.end.turns - self._turned_by(t, y)])
         if self.end.until == "steady":
-            return np.array([2.0 * math.pi * (len(self.sections) + 1) - abs(y[0] - self.begin[0])])
+            return np.array([2.0 * math.pi * (len(self.sections) + 1) - self._turned_by(t, y)])
         return np.empty(0)
+
+    def _turned_by(self, t: float, y: Floats) -> float:
+        """How far the first free driver has turned, either way."""
+        name = self.first.free[0]
+        own = float(y[0]) if self.equation.free[0] == name else self.system.drivers(t, y)[name][0]
+        return abs(own - self.begin)
 
     def _section(self) -> bool:
         """Whether the turn that ends here is as the one before."""
-        n = len(self.equation.free)
-        self.sections.append(self.y[n : 2 * n].copy())
+        found = self.system.drivers(self.t, self.y)
+        self.sections.append(np.array([found[name][1] for name in self.first.free]))
         if len(self.sections) < 2:
             return False
         last, before = self.sections[-1], self.sections[-2]
@@ -276,7 +304,7 @@ class _Course:
                 time=self.t,
             )
         return Run(
-            self.mechanism, self.equation, tuple(self.pieces), tuple(self.happened), self.residual, self.largest, note
+            self.mechanism, self.first, tuple(self.pieces), tuple(self.happened), self.residual, self.largest, note
         )
 
     def _first_holding(self) -> None:
@@ -380,6 +408,10 @@ class _Course:
             )
 
     def _refuse_here(self) -> None:
+        system, size = self.system, np.sqrt(np.where(self.heaviest > 0.0, self.heaviest, 1.0))
+        mass = system.mass(system.evaluate(system.full, self.t, self.y)) / (size * size[:, None])
+        if np.isfinite(mass).all() and np.linalg.eigvalsh(mass)[0] < MASSLESS:
+            self._refuse_without_inertia()
         raise LinkwrightError(
             _(
                 "the motion cannot go on after {time:.6g} s, at {where}: the machine comes to where it cannot be put "
@@ -395,6 +427,9 @@ class _Course:
         n = len(self.equation.free)
         self.system.pace = np.maximum(self.system.pace, np.abs(self.y[n : 2 * n]))
         kinetic = self._kinetic()
+        self.heaviest = np.maximum(self.heaviest, np.diag(self.system.mass(self.system.full.out)))
+        self.system.follow()
+        self.pieces[-1].carried.append(self.system.carried)
         work = self.y[-1]
         self.largest = max(self.largest, kinetic, abs(float(work)))
         self.residual = max(self.residual, abs(kinetic - self.kinetic + self.lost - float(work)))
@@ -424,11 +459,34 @@ class _Course:
             names = dict.fromkeys(owner for owner in self._owners(now) if owner not in self._owners(then))
             if names:
                 self._note(kind, ", ".join(names))
+        if "singular" in kinds:
+            self._go_over()
         if self.end.until and self._resting():
             self._note("rest", "")
-            self.pieces.append(Piece.resting(system, self.t, self.y))
+            self.pieces.append(Piece.resting(self.system, self.t, self.y))
             return False
         return True
+
+    def _go_over(self) -> None:
+        """Goes on beyond a singular position: in another description, or with formulas bridged."""
+        system = self.system
+        stretch, q, w = self.positions.next(system.now(), *system.coordinates(self.t, self.y))
+        if stretch.description.equation is system.equation and stretch.point is system.stretch.point:
+            system.stretch = stretch
+            return
+        if stretch.point is not None:
+            self._note("change_point", "")
+        elif stretch.description.names != system.equation.names:
+            self._note("dead_point", "")
+        touch = system.holding.touch
+        self.system, self.y = System(stretch), self._state(stretch, q, w, self.y[-1])
+        n = len(self.equation.free)
+        self.system.pace = np.abs(self.y[n : 2 * n])
+        self.heaviest = np.zeros(n)
+        self.stepper.absolute = self._absolute()
+        out = self.system.evaluate(self.system.full, self.t, self.y).copy()
+        self._set_sides(out, range(len(self.system.surfaces)))
+        self._settle(touch)
 
     def _owners(self, holding: Holding) -> list[str]:
         """Whose friction holds."""
@@ -446,7 +504,9 @@ class _Course:
         return True
 
     def _note(self, kind: str, name: str, value: float = 0.0) -> None:
-        self.happened.append(Happening(self.t, kind, name, value, tuple(self.y[: len(self.equation.free)].tolist())))
+        found = self.system.drivers(self.t, self.y)
+        coordinates = tuple(found[each][0] for each in self.first.free)
+        self.happened.append(Happening(self.t, kind, name, value, coordinates))
 
     def _cross(self, crossed: list[int]) -> None:
         """Lets surfaces go over: those by rates that are zero exactly to zero, of which forces tell the rest, the

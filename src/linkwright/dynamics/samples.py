@@ -10,11 +10,16 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.inputs import Input
+from linkwright.core.outputs import Output, row_name
+from linkwright.dynamics.change_points import read_across
 from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.integration import Piece
+from linkwright.dynamics.site import near_name
 from linkwright.dynamics.stops import contact_name
 from linkwright.dynamics.switches import switch_name
+from linkwright.errors import RequestError
 from linkwright.formula.trace import Scalar
+from linkwright.kinetostatics.solver import ForceSolver
 
 
 @dataclass
@@ -30,13 +35,17 @@ class Samples:
         """The times of each piece."""
         ends = np.array([piece.end for piece in self.pieces])
         which = np.minimum(np.searchsorted(ends, self.time, side="right"), len(ends) - 1)
-        return [Part(piece, self.time[which == k]) for k, piece in enumerate(self.pieces) if (which == k).any()]
+        return [
+            Part(self.equation, piece, self.time[which == k])
+            for k, piece in enumerate(self.pieces)
+            if (which == k).any()
+        ]
 
     @cached_property
     def course(self) -> dict[str, tuple[Floats, Floats, Floats]]:
         """Coordinate, rate and second derivative of every driver, (n,) each."""
         found = {}
-        for name in self.equation.names:
+        for name in self.equation.source.drivers:
             rows = [np.concatenate([part.course[name][order] for part in self.parts]) for order in range(3)]
             found[name] = (rows[0], rows[1], rows[2])
         return found
@@ -50,8 +59,8 @@ class Samples:
         """Rows of the motion, or of it and its forces, by name (see ``core.outputs``), (names, n)."""
         return np.concatenate([part.rows(names, forces=forces) for part in self.parts], axis=1)
 
-    def values(self, outputs: Mapping[str, Scalar]) -> Floats:
-        """Values of the trace of motion and forces by any names, (outputs, n)."""
+    def values(self, outputs: Callable[[ForceSolver], dict[str, Scalar]]) -> Floats:
+        """Values of the trace of motion and forces by any names, (outputs, n), that it names of a solver."""
         return np.concatenate([part.values(outputs) for part in self.parts], axis=1)
 
     def outputs(self, names: Sequence[str]) -> Floats:
@@ -59,11 +68,17 @@ class Samples:
         return np.concatenate([part.outputs(names) for part in self.parts], axis=1)
 
 
-class Part:
-    """Times of one piece."""
+#: How rows of drivers' efforts and of angles with turns begin.
+EFFORT, TURNED = row_name("effort") + ":", row_name("turned_angle") + ":"
+#: Outputs (names, n) at inputs (n,) by name.
+Evaluate = Callable[[Mapping[str, Floats]], Floats]
 
-    def __init__(self, piece: Piece, time: Floats) -> None:
-        self.piece, self.time = piece, time
+
+class Part:
+    """Times of one piece; ``first``: the equation by the model's own drivers."""
+
+    def __init__(self, first: EquationOfMotion, piece: Piece, time: Floats) -> None:
+        self.first, self.piece, self.time = first, piece, time
         self.system, self.equation = piece.system, piece.system.equation
         self.states = piece.at(time)
 
@@ -73,8 +88,8 @@ class Part:
         system, n = self.system, len(self.equation.free)
         system.hold(self.piece.holding)
         seconds, held, chains = [], [], []
-        for t, y, step in zip(self.time.tolist(), self.states.T, self.piece.steps(self.time), strict=True):
-            system.set_states(dict(zip(self.equation.states, self.piece.chains[step].tolist(), strict=True)))
+        for k, t, y in zip(self.piece.steps(self.time), self.time.tolist(), self.states.T, strict=True):
+            system.set_inputs(self._carried[k])
             if system.holding.constrained:
                 found, share = system.constrained(t, y)
             else:
@@ -84,9 +99,28 @@ class Part:
             chains.append(system.chain(t, y))
         return np.array(seconds).T, np.array(held).T, np.array(chains).T
 
+    @property
+    def _carried(self) -> list[dict[str, float]]:
+        """What is carried on from step to step, where each begins."""
+        return [self.piece.begun, *self.piece.carried]
+
     @cached_property
     def course(self) -> dict[str, tuple[Floats, Floats, Floats]]:
-        """Coordinate, rate and second derivative of every driver, (n,) each."""
+        """Coordinate, rate and second derivative of each of the model's drivers, (n,) each."""
+        found = dict(self._course)
+        for name in self.equation.replaced:
+            driver = self.equation.source.drivers[name]
+            q, w = self.outputs([f"input:{name}", f"input_rate:{name}"])
+            kind = "angular_acceleration" if driver.law.rotary else "slide_acceleration"
+            ends = (driver.link, driver.relative_to) if driver.law.rotary else (driver.joint,)
+            rows = [row_name(kind, end) for end in ends if end != "frame"]
+            signs = [-1.0 if end == driver.relative_to else 1.0 for end in ends if end != "frame"]
+            found[name] = q, w, np.array(signs) @ self.rows(rows, forces=False)
+        return found
+
+    @cached_property
+    def _course(self) -> dict[str, tuple[Floats, Floats, Floats]]:
+        """The same of the coordinates of its equation."""
         equation, n = self.equation, len(self.equation.free)
         seconds = self._found[0]
         found = {name: (self.states[k], self.states[n + k], seconds[k]) for k, name in enumerate(equation.free)}
@@ -100,7 +134,7 @@ class Part:
         """Inputs of programs, what sticks on the side below."""
         equation, holding = self.equation, self.piece.holding
         found = {"time": self.time}
-        for name, (q, w, second) in self.course.items():
+        for name, (q, w, second) in self._course.items():
             found |= {f"q:{name}": q, f"w:{name}": w, Input("second", name).name: second}
         sides = holding.sides.copy()
         for group in holding.stick:
@@ -110,7 +144,11 @@ class Part:
         _, held, chains = self._found
         for row, number in enumerate(holding.touch):
             found[contact_name(self.system.stops[number])] = held[len(holding.stick) + row]
+        held_inputs = self.system.stretch.description.held
+        found |= {name: np.full(len(self.time), each) for name, each in held_inputs.items()}
         found |= dict(zip(equation.states, chains, strict=False))
+        for name in map(near_name, equation.replaced):
+            found[name] = np.array([self._carried[k].get(name, 0.0) for k in self.piece.steps(self.time)])
         return found
 
     def _switches(self, sides: Floats) -> dict[str, Floats]:
@@ -122,26 +160,54 @@ class Part:
 
     def rows(self, names: Sequence[str], *, forces: bool) -> Floats:
         """As :meth:`Samples.rows`: forces where something sticks lie between those of slipping either way."""
-        program = self.equation.row_program(names, forces=forces)
-        return self._between(lambda given: self.equation.run(program, given, len(self.time)))
+        known = [k for k, name in enumerate(names) if not self.equation.replaced or self._known(name)]
+        program = self.equation.row_program([names[k] for k in known], forces=forces)
+        found = np.array([self._missing(name) for name in names]).reshape(len(names), -1)
+        found[known] = self._between(lambda given: self.equation.run(program, given, len(given["time"])))
+        return found
 
-    def values(self, outputs: Mapping[str, Scalar]) -> Floats:
+    def _known(self, name: str) -> bool:
+        """Whether its coordinates have a row: efforts of drivers, and what groups tell, are those of a structure."""
+        if name.startswith(TURNED):
+            return self.equation.solver.motion.angles.follows(Output.of_row(name).owner)
+        try:
+            self.equation.forces.programs.value(name)
+        except (KeyError, RequestError):
+            return False
+        return True
+
+    def _missing(self, name: str) -> Floats:
+        """A row that its coordinates do not have, (n,): a free driver supplies nothing, angles are by the model's
+        drivers, and of groups nothing is told."""
+        if name.startswith(EFFORT):
+            return np.zeros(len(self.time))
+        if not name.startswith(TURNED):
+            return np.full(len(self.time), np.nan)
+        given = {f"q:{name}": q for name, (q, _rate, _second) in self.course.items()}
+        return np.asarray(self.first.run(self.first.row_program([name], forces=False), given, len(self.time))[0])
+
+    def values(self, outputs: Callable[[ForceSolver], dict[str, Scalar]]) -> Floats:
         """As :meth:`Samples.values`."""
-        program = self.equation.value_program(outputs)
-        return self._between(lambda given: self.equation.run(program, given, len(self.time)))
+        program = self.equation.value_program(outputs(self.equation.forces))
+        return self._between(lambda given: self.equation.run(program, given, len(given["time"])))
 
     def outputs(self, names: Sequence[str]) -> Floats:
         """As :meth:`Samples.outputs`."""
-        return self._between(lambda given: self.equation.evaluate(names, given, len(self.time)))
+        return self._between(lambda given: self.equation.evaluate(names, given, len(given["time"])))
 
-    def _between(self, evaluate: Callable[[Mapping[str, Floats]], Floats]) -> Floats:
-        found = evaluate(self.given)
+    def _across(self, evaluate: Evaluate, given: Mapping[str, Floats]) -> Floats:
+        """Outputs at all times; near a change point read from both sides of it."""
+        point = self.system.stretch.point
+        return evaluate(given) if point is None else read_across(point, evaluate, given)
+
+    def _between(self, evaluate: Evaluate) -> Floats:
+        found = self._across(evaluate, self.given)
         base = found.copy()
         for row, group in enumerate(self.piece.holding.stick):
             sides = self.piece.holding.sides.copy()
             for each in self.piece.holding.stick:
                 for index, sign in each:
                     sides[index] = sign if each is group else -sign
-            other = evaluate(self.given | self._switches(sides))
+            other = self._across(evaluate, self.given | self._switches(sides))
             found = found + self._found[1][row] * (other - base)
         return found

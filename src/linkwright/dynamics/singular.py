@@ -67,7 +67,7 @@ class SingularPositions:
         """The stretch on which a run begins, and its coordinates and rates (drivers,) each."""
         begin = Stretch(Description.of(self.descriptions.first))
         q = self._reached(begin.description, q)
-        if begin.description.quality(q) > BOUND:
+        if not begin.description.quality(q) <= BOUND:
             return begin, q, w
         found = self.next(begin, q, w)
         if found[0].point is None and begin.description.quality(q) < AT_ONCE and w.any():
@@ -104,7 +104,7 @@ class SingularPositions:
         Raises:
             LinkwrightError: no other coordinates lead on.
         """
-        now = stretch.description
+        now = self.descriptions.flipping(stretch.description)
         if stretch.point is not None:
             side = 1.0 if stretch.point.beyond(q) < 0.0 else -1.0
             flipped = {group: side * sign for group, sign in stretch.point.modes.items()}

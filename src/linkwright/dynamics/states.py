@@ -20,7 +20,7 @@ from linkwright.formula.trace import Scalar
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.positions import Positions
 from linkwright.kinetostatics.forces import Forces
-from linkwright.kinetostatics.solver import in_words
+from linkwright.kinetostatics.solver import ForceSolver, in_words
 
 #: Inputs of the equation's programs by name, (n,) each or one number.
 Given = Mapping[str, Floats | float]
@@ -121,9 +121,9 @@ class FoundForces(Forces):
             values[:, ~self.motion.ok] = np.nan
         return values
 
-    def evaluate_traced(self, outputs: dict[str, Scalar]) -> Floats:
+    def evaluate_traced(self, outputs: Callable[[ForceSolver], dict[str, Scalar]]) -> Floats:
         """Values of the trace of motion and forces, (outputs, n)."""
-        return self.found.values(outputs)
+        return self.found.values(outputs(self.solver))
 
 
 def motion_at(found: FoundStates) -> FoundMotion:

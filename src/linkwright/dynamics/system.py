@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import product
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import Output
+from linkwright.dynamics.change_points import Bridged
 from linkwright.dynamics.complementarity import shares
 from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.right_side import RightSide
+from linkwright.dynamics.singular import Stretch
+from linkwright.dynamics.site import near_name
 from linkwright.dynamics.stops import contact_name
 from linkwright.dynamics.switches import gap_name, switch_name
 
@@ -24,6 +27,7 @@ SLACK, MOST_TRIED = 1e-9, 5
 CLOSING_STEPS, CLOSED = 24, 1e-13
 
 
+Side = RightSide | Bridged
 #: Surfaces, each with its side where the first is above, that stick and slip together.
 Group = tuple[tuple[int, float], ...]
 
@@ -68,8 +72,9 @@ class Holding:
 class System:
     """The right-hand side of an equation of motion: y = (free coordinates, their rates, work), (2 n + 1,)."""
 
-    def __init__(self, equation: EquationOfMotion) -> None:
-        self.equation = equation
+    def __init__(self, stretch: Stretch) -> None:
+        self.stretch = stretch
+        self.equation = equation = stretch.description.equation
         self.free, self.stops = equation.free, list(equation.mechanism.stops)
         self.surfaces = surfaces_of(equation)
         names = [*(f"a:{name}" for name in self.free), "power"]
@@ -83,12 +88,16 @@ class System:
         more += [f"stop_by:{stop}:{name}" for stop in self.stops for name in self.free]
         more += [f"M:{a}:{b}" for a in self.free for b in self.free]
         more += [f"quality:{group}" for group in equation.groups]
+        more += [f"{kind}:{name}" for kind in ("input", "input_rate") for name in equation.replaced]
         first = [f"{kind}:{name}" for kind in ("q", "w") for name in self.free]
         self.slim, self.full = (
-            RightSide(equation.program(wanted), equation.numbers, tables=equation.tables, first=[*first, "time"])
+            stretch.side(
+                RightSide(equation.program(wanted), equation.numbers, tables=equation.tables, first=[*first, "time"])
+            )
             for wanted in (names, names + more)
         )
         self.place = {name: k for k, name in enumerate(self.full.program.output_names)}
+        self._qualities = np.array([self.place[f"quality:{group}"] for group in equation.groups], dtype=np.intp)
         self._states = {
             side: np.array([side.inputs[name] for name in carried if name in side.inputs], dtype=np.intp)
             for side in (self.slim, self.full)
@@ -98,7 +107,6 @@ class System:
         self.holding = Holding(np.ones(len(self.surfaces)))
         self.missed = 0
         self.pace = np.zeros(len(self.free))
-        self.set_states(equation.states)
 
     def __hash__(self) -> int:
         return id(self)
@@ -108,15 +116,15 @@ class System:
         return System, (self.equation,)
 
     @staticmethod
-    def _rows(side: RightSide) -> dict[int, int]:
+    def _rows(side: Side) -> dict[int, int]:
         names = {switch_name(k): k for k in range(len(side.inputs))}
         return {names[name]: row for name, row in side.inputs.items() if name in names}
 
     # inputs ---------------------------------------------------------------------------------------------
-    def set_states(self, states: dict[str, float]) -> None:
-        """Where Newton's steps of groups without closed form begin."""
+    def set_inputs(self, values: Mapping[str, float]) -> None:
+        """Sets inputs by name, such as where Newton's steps of groups without closed form begin."""
         for side in (self.slim, self.full):
-            for name, value in states.items():
+            for name, value in values.items():
                 if name in side.inputs:
                     side.x[side.inputs[name]] = value
 
@@ -134,7 +142,7 @@ class System:
                     if row is not None:
                         side.x[row] = on
 
-    def evaluate(self, side: RightSide, t: float, y: Floats) -> Floats:
+    def evaluate(self, side: Side, t: float, y: Floats) -> Floats:
         """Outputs at a time and a state, in place."""
         n, x = len(self.free), side.x
         x[: 2 * n] = y[: 2 * n]
@@ -146,7 +154,7 @@ class System:
             self._close(side)
         return side.out
 
-    def _prescribe(self, side: RightSide, t: float) -> None:
+    def _prescribe(self, side: Side, t: float) -> None:
         """Coordinates and rates of the inputs that have laws."""
         for name in self.prescribed:
             course = self.equation.source.drivers[name].law.coordinate(np.array([t]))
@@ -155,7 +163,7 @@ class System:
                 if row is not None:
                     side.x[row] = float(value[0])
 
-    def _close(self, side: RightSide) -> None:
+    def _close(self, side: Side) -> None:
         """Goes on with Newton's steps until the groups without closed form are closed."""
         rows, n = self._states[side], len(self.free) + 1
         found = side.out[n : n + len(rows)]
@@ -167,6 +175,48 @@ class System:
             side.call()
         self.missed += 1
         side.out[:n] = np.nan
+
+    # what it is described by ------------------------------------------------------------------------------
+    @property
+    def margin(self) -> float:
+        """Positive until something must be done about a singular position, where ``full`` was called last."""
+        return self.stretch.margin(self.full.out[self._qualities], self.full)
+
+    @property
+    def carried(self) -> dict[str, float]:
+        """Inputs that go on from step to step, as they are: where Newton's steps begin, and turns of drivers."""
+        names = [*self.equation.states, *map(near_name, self.equation.replaced)]
+        return {name: float(self.full.x[self.full.inputs[name]]) for name in names if name in self.full.inputs}
+
+    def follow(self) -> None:
+        """Notes the angles of drivers that are no coordinates, where ``full`` was called last."""
+        out, place = self.full.out, self.place
+        self.set_inputs({near_name(k): float(out[place[f"input:{k}"]]) for k in self.equation.replaced})
+
+    def drivers(self, t: float, y: Floats) -> dict[str, tuple[float, float]]:
+        """Coordinate and rate of each of the model's drivers."""
+        n, out = len(self.free), self.evaluate(self.full, t, y)
+        found = {name: (float(y[k]), float(y[n + k])) for k, name in enumerate(self.free)}
+        for name in self.equation.replaced:
+            found[name] = float(out[self.place[f"input:{name}"]]), float(out[self.place[f"input_rate:{name}"]])
+        for name in self.prescribed:
+            q, w, _second = self.equation.source.drivers[name].law.coordinate(np.array([t]))
+            found[name] = float(q[0]), float(w[0])
+        return {name: found[name] for name in self.equation.source.drivers}
+
+    def coordinates(self, t: float, y: Floats) -> tuple[Floats, Floats]:
+        """Coordinates and rates (drivers,) of the equation, those with laws as well."""
+        n, found = len(self.free), self.drivers(t, y)
+        found |= {name: (float(y[k]), float(y[n + k])) for k, name in enumerate(self.free)}
+        both = np.array([found[name] for name in self.equation.names])
+        return both[:, 0], both[:, 1]
+
+    def now(self) -> Stretch:
+        """The stretch with what has been carried on."""
+        carried, description = self.carried, self.stretch.description
+        states = {name: carried.get(name, value) for name, value in description.states.items()}
+        near = {name: carried.get(near_name(name), value) for name, value in description.near.items()}
+        return replace(self.stretch, description=replace(description, states=states, near=near))
 
     def chain(self, t: float, y: Floats) -> Floats:
         """Chain coordinates of the groups without closed form at a state, in the order of the equation's states."""

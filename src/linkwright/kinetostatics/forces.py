@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -284,10 +284,11 @@ class Forces(PlotMixin):
             values[:, ~self.motion.ok] = np.nan
         return values
 
-    def evaluate_traced(self, outputs: dict[str, Scalar]) -> Floats:
-        """Values of the trace of motion and forces, by any names, at all positions, (outputs, n)."""
+    def evaluate_traced(self, outputs: Callable[[ForceSolver], dict[str, Scalar]]) -> Floats:
+        """Values of the trace of motion and forces, by any names, at all positions, (outputs, n); ``outputs`` names
+        those of a solver, of which a run through dead points has several."""
         motion = self.motion
-        program = NumpyProgram(Program.of(motion.solver.motion.trace, outputs))
+        program = NumpyProgram(Program.of(motion.solver.motion.trace, outputs(self.solver)))
         inner = program.program
         parameters = [motion.design.parameters[name] for name in inner.parameters]
         arrays, fields = {**motion.positions.arrays, **motion.modes}, {**motion.states, **self.fields}

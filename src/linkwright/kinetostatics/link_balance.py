@@ -12,6 +12,7 @@ from linkwright.core.data import locked
 from linkwright.core.outputs import row_name, row_names
 from linkwright.formula.trace import Scalar
 from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.solver import ForceSolver
 
 
 def balance_residual(forces: Forces) -> Floats:
@@ -136,15 +137,21 @@ class AppliedWrench:
 
 def applied_wrenches(forces: Forces, index: int) -> list[AppliedWrench]:
     """All of them at one position, in the order of the model; those on the frame among them."""
-    order = [(name, i, w) for name, group in forces.solver.forces.wrenches.items() for i, w in enumerate(group)]
-    outputs: dict[str, Scalar] = {}
-    for name, i, w in order:
-        parts = (w.force.x, w.force.y, w.place.x, w.place.y, w.torque)
-        outputs |= {f"{name}#{i}#{j}": part for j, part in enumerate(parts)}
-    if not outputs:
+    order = [(name, w.link) for name, group in forces.solver.forces.wrenches.items() for w in group]
+    if not order:
         return []
-    rows = forces.evaluate_traced(outputs)[:, index].reshape(-1, 5).tolist()
+    rows = forces.evaluate_traced(_wrench_parts)[:, index].reshape(-1, 5).tolist()
     return [
-        AppliedWrench(name, w.link, (fx, fy), (px, py), torque)
-        for (name, _, w), (fx, fy, px, py, torque) in zip(order, rows, strict=True)
+        AppliedWrench(name, link, (fx, fy), (px, py), torque)
+        for (name, link), (fx, fy, px, py, torque) in zip(order, rows, strict=True)
     ]
+
+
+def _wrench_parts(solver: ForceSolver) -> dict[str, Scalar]:
+    """Force, place and torque of every applied wrench."""
+    outputs: dict[str, Scalar] = {}
+    for name, group in solver.forces.wrenches.items():
+        for i, w in enumerate(group):
+            parts = (w.force.x, w.force.y, w.place.x, w.place.y, w.torque)
+            outputs |= {f"{name}#{i}#{j}": part for j, part in enumerate(parts)}
+    return outputs
