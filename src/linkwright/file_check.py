@@ -198,6 +198,11 @@ def _assumed(mechanism: Mechanism, structure: Structure) -> list[Finding]:
     """Notes on dyads whose assembly neither a word nor a drawing says."""
     from linkwright.kinematics.assembly import modal_groups
 
+    if mechanism.path is not None:
+        from linkwright.kinematics.following import as_put_together
+
+        mechanism = as_put_together(mechanism)
+        structure = mechanism.structure()
     found = []
     for group, words in modal_groups(structure).values():
         inner = [each.joint for each in group.inner_joints]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from math import cos, pi, sin
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -268,6 +269,28 @@ def test_metrics_between_positions_know_the_exact_course() -> None:
     found = lw.metrics(lw.solve_forces(robot(LINE), steps=17))
     peak = next(each for each in found if each.metric == "peak_acceleration")
     assert peak.value == pytest.approx(10 / 3**0.5 * 0.1**0.5, rel=1e-9)
+
+
+def test_designs_of_other_lengths_have_other_courses() -> None:
+    machine = robot(LINE)
+    with refused("study.moves_positions", address="upper.length"):
+        lw.sensitivity(machine, of=["one.effort"], by=["upper.length"])
+    with refused("study.moves_positions", address="upper.length"):
+        lw.sweep(machine, {"upper.length": [0.5, 0.55]}, outputs=["one.effort"])
+    assert lw.sweep(machine, {"fore.mass": [1.0, 1.5]}, outputs=["one.effort"]) is not None
+
+
+def test_under_forces_a_machine_begins_where_its_path_begins() -> None:
+    run = lw.run(lw.loads(FIVE_BAR), duration=0.05)
+    assert run.motion(5).point("P").position[0] == pytest.approx([0.23, 0.4], abs=1e-9)
+
+
+def test_check_asks_for_the_elbows_that_nothing_tells(tmp_path: Path) -> None:
+    file = tmp_path / "five_bar.yaml"
+    file.write_text(FIVE_BAR.replace("assembly: {A: left, B: right}\n", ""), encoding="utf-8")
+    assert [each.code for each in lw.check(file)] == ["assembly", "assembly"]
+    file.write_text(FIVE_BAR, encoding="utf-8")
+    assert not lw.check(file)
 
 
 def test_what_cannot_be_followed_is_refused_with_place_and_cause() -> None:

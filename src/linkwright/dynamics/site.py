@@ -123,8 +123,10 @@ def coordinate_of(motion: MotionTrace, driver: Driver) -> tuple[Scalar, Scalar]:
 def freed(mechanism: Mechanism) -> Mechanism:
     """The mechanism with its drivers' coordinates free, its actuators and what its stops do among its loads.
 
-    A constant speed would be folded into the programs, so that the coordinate's second derivative were known.
+    A constant speed would be folded into the programs, so that the coordinate's second derivative were known. One
+    that follows a path begins as it is at the path's beginning.
     """
+    mechanism = mechanism.posed
     drivers = {name: _free(each) for name, each in mechanism.drivers.items()}
     stops = (contact(stop) for stop in mechanism.stops.values())
     loads: Mapping[str, Load] = {**mechanism.loads, **mechanism.actuators, **{each.name: each for each in stops}}

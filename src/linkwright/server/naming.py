@@ -137,6 +137,8 @@ def _is_named(what: str, path: tuple[str, ...], text: str, old: str, *, is_key: 
             return inner in ("at", "speed")
         return path == (KINDS[what],) or (path == ("assembly",) and what == "pair") or inner == KINDS[what]
     if what == "point":
+        if path == ("path", "point"):
+            return True
         here = inner == "between" if section == "actuators" else inner in POINTS
         return here and section in ("joints", "loads", "actuators", "driver", "drivers", "links")
     if section == "run":
