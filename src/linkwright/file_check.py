@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, cast
 
+from linkwright.actuators.cylinder import Cylinder
 from linkwright.core.arguments import STEPS
 from linkwright.core.attached import SECTIONS
 from linkwright.core.entry_points import loaded
@@ -174,6 +175,7 @@ def _of_machine(mechanism: Mechanism, folder: str, *, rests: bool) -> tuple[list
         *(_of_loads(mechanism, unsure, varying) if (unsure or varying) and not turned else ()),
         *(_of_cams(mechanism) if mechanism.higher else ()),
         *_of_friction(mechanism),
+        *(() if turned else _of_strokes(mechanism, None)),
         *_of_settings(mechanism, folder, moves=not turned),
         *notes,
         *_assumed(mechanism, built),
@@ -190,8 +192,43 @@ def _of_free(mechanism: Mechanism, folder: str) -> list[Finding]:
     """The findings about a machine with a driver that has no law: it is put together where it begins, not turned."""
     from linkwright.kinematics.solve import solve_motion
 
-    solve_motion(mechanism, times=[0.0])
-    return [*_of_friction(mechanism), *_of_settings(mechanism, folder, moves=False)]
+    motion = solve_motion(mechanism, times=[0.0])
+    settings = _of_settings(mechanism, folder, moves=False)
+    return [*_of_friction(mechanism), *_of_strokes(mechanism, motion), *settings]
+
+
+def _of_strokes(mechanism: Mechanism, motion: Motion | None) -> Iterator[Finding]:
+    """Cylinders that would have to be shorter or longer than their stroke lets them in a motion, by default the
+    cycle."""
+    cylinders = [each for each in mechanism.actuators.values() if isinstance(each, Cylinder) and each.stroke]
+    if not cylinders:
+        return
+    import numpy as np
+
+    from linkwright.core.quantity import shown
+    from linkwright.kinematics.solve import try_motion
+
+    moved = try_motion(mechanism, TRIED) if motion is None else motion
+    for each in cylinders:
+        shortest, longest = each.stroke or (0.0, 0.0)
+        if each.between is not None:
+            a, b = (moved.point(str(end)).position for end in each.between)
+            length = np.hypot(*(b - a).T)
+        else:
+            length = moved.joint(str(each.along)).displacement
+        low, high = float(np.nanmin(length)), float(np.nanmax(length))
+        slack = 1e-9 * mechanism.size
+        if low < shortest - slack or high > longest + slack:
+            message = _(
+                "the cylinder would go from {low} to {high}, and its stroke is {shortest} to {longest}",
+                code="actuators.beyond_stroke",
+                low=shown(low, "length"),
+                high=shown(high, "length"),
+                shortest=shown(shortest, "length"),
+                longest=shown(longest, "length"),
+            )
+            remedy = _("choose a longer cylinder, or other points for its ends")
+            yield Finding("warning", "", f"actuators.{each.name}.stroke", message, remedy, "range")
 
 
 def _assumed(mechanism: Mechanism, structure: Structure) -> list[Finding]:

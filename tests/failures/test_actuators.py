@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from tests.refusals import findings, refused, said
 
@@ -195,5 +197,23 @@ def test_a_motion_of_a_free_driver_is_refused_with_what_to_do() -> None:
         lw.solve_motion(free, at=0.3)
 
 
-def test_the_file_of_a_free_driver_is_checked_in_its_first_position(tmp_path: object) -> None:
-    assert errors(text().replace("speed: 60 rpm", "free: true")) == []
+def test_the_file_of_a_free_driver_is_checked_in_its_first_position(tmp_path: Path) -> None:
+    path = tmp_path / "press.yaml"
+    path.write_text(text().replace("speed: 60 rpm", "free: true"), "utf-8")
+    assert [each for each in lw.check(path) if each.severity == "error"] == []
+
+
+def test_a_cylinder_that_is_too_short_for_the_cycle_is_a_warning(tmp_path: Path) -> None:
+    """The slide goes from 0.35 m to 0.55 m below O."""
+    path = tmp_path / "press.yaml"
+    for stroke, found in (("[0.3 m, 0.6 m]", 0), ("[0.3 m, 0.5 m]", 1), ("[0.36 m, 0.6 m]", 1)):
+        for place in ("between: [frame.O, slide.B]", "along: guide"):
+            path.write_text(text(f"kind: cylinder, {place}, force: 3 kN, stroke: {stroke}"), "utf-8")
+            told = [each for each in lw.check(path) if each.key == "actuators.main.stroke"]
+            assert [each.severity for each in told] == ["warning"] * found
+    free = text("kind: cylinder, along: guide, force: 3 kN, stroke: [0.36 m, 0.4 m]").replace(
+        "speed: 60 rpm", "free: true"
+    )
+    path.write_text(free, "utf-8")
+    told = [each for each in lw.check(path) if each.severity != "note"]
+    assert [(each.code, each.severity) for each in told if each.key.startswith("actuators")] == [("range", "warning")]
