@@ -111,6 +111,7 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "balancing": lambda: lw.balance(lw.load("gallery:crank_rocker"), radius=0.1),
     "release": lambda: lw.release(CRUSHER(), at=0.5),
     "run": lambda: lw.run(lw.load("gallery:watt_sixbar"), duration=0.1),
+    "runs": lambda: lw.run_designs(lw.load("gallery:watt_sixbar"), {"coupler.mass": [1.8, 2.2]}, duration=0.1),
     "worked": lambda: lw.worked(crusher(), 0),
     "comparison": lambda: lw.compare([SIX, "gallery:jaw_crusher_fourbar"], steps=48),
     "study": lambda: lw.study(CRUSHER(), {"crank.length": "90..100 mm:3"}, steps=48),
