@@ -26,7 +26,8 @@ class Equilibrium:
 
     ``inputs``: coordinates of all drivers, rad or m. ``stability``: ``stable``, ``unstable``, ``neutral`` (in a part
     of the range, or in some direction), ``one_sided`` (it comes back from one side and goes away on the other),
-    ``held`` by friction, ``stopped``: what acts pushes it against the ``stop``, with ``contact`` N (of an angle N·m).
+    ``held`` by friction or other resistance, ``stopped``: what acts pushes it against the ``stop``, with ``contact``
+    N (of an angle N·m).
     ``beyond``: beyond a dead point of the input, in another assembly mode than in the drawing.
     ``low``, ``high``: the part of the range in which it rests, where that is no single position (one free input);
     None else. ``jump``: a load begins or ends to act there.

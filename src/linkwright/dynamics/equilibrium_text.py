@@ -21,7 +21,7 @@ STABILITY = {
     "unstable": _("unstable"),
     "neutral": _("neutral"),
     "one_sided": _("unstable to one side"),
-    "held": _("held by friction"),
+    "held": _("held by resistance"),
     "stopped": _("rests at stop {stop}"),
 }
 #: Work of a turn, as share of the effort's size over a turn, that is rounding.
@@ -103,7 +103,7 @@ def _sums(found: Equilibria, each: Equilibrium, number: int) -> Table:
     size = max((float(np.abs(shares).max()) for shares in each.shares.values()), default=0.0)
     total = np.where(np.abs(total) <= NO_WORK * size, 0.0, total)
     if total.any():
-        holds = _("stop {stop}", stop=each.stop) if each.stop else _("friction")
+        holds = _("stop {stop}", stop=each.stop) if each.stop else _("resistance")
         rows.append([holds, *(Amount(-float(s), kind) for s, kind in zip(total, kinds, strict=True))])
         total = 0.0 * total
     rows.append([_("sum"), *(Amount(float(s), kind) for s, kind in zip(total, kinds, strict=True))])
@@ -206,8 +206,8 @@ def remarks(found: Equilibria) -> list[Message]:
     if any(each.stability == "held" for each in found):
         notes.append(
             _(
-                "Friction or a brake holds the machine at rest in the intervals given: everywhere between their ends "
-                "it stays."
+                "What only resists motion (friction, a brake, the load of a working stroke) holds the machine at "
+                "rest everywhere in the intervals given."
             )
         )
     elif found.forces.equation.rubs and found.starts:
