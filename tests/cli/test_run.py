@@ -120,3 +120,11 @@ def test_what_cannot_be_is_refused(rod: str) -> None:
     is_refused(["run", rod, "--speed", "2 m/s"], "wrong-dimension")
     is_refused(["run", rod, "--at", "crank=2 deg"], "solve.no_driver")
     is_refused(["run", rod, "--plot", "curves.txt"], "cli.bad_suffix")
+
+
+def test_reports_have_the_run(wheel: str, tmp_path: Path) -> None:
+    path = tmp_path / "report.html"
+    shown("report", wheel, "--sections", "run", "--to", "html", "--output", str(path))
+    text = path.read_text("utf-8")
+    assert "How the run ends" in text
+    assert "the time is over" in text

@@ -82,8 +82,8 @@ class RunText(Tabular):
         return Table((), rows, "<><", in_language(run.mechanism.name, language), notes)
 
     def _events(self, language: str) -> Table:
-        events = self.run.events
-        shown = events if len(events) <= SHOWN else (*events[: SHOWN - 1], events[-1])
+        events = self._once
+        shown = events if len(events) <= SHOWN else [*events[: SHOWN - 1], events[-1]]
         rows: list[Sequence[Cell]] = [
             [Amount(each.time, "time"), self._what(each), in_language(self._where(each), language)] for each in shown
         ]
@@ -92,6 +92,11 @@ class RunText(Tabular):
         return Table(
             (_("time"), _("event"), pgettext("run", "at")), rows, "><<", title, notes if len(events) > SHOWN else []
         )
+
+    @property
+    def _once(self) -> list[Happening]:
+        """The events, those of one load at one time once: it has a comparison for each end of its phase."""
+        return list({(each.time, each.kind, each.name): each for each in self.run.events}.values())
 
     def _what(self, event: Happening) -> Message:
         what = KINDS[event.kind].format(name=event.name)

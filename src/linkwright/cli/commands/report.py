@@ -14,7 +14,19 @@ FORMS = ("pdf", "html", "docx")
 #: Names of the sections in their usual order.
 SECTIONS = (
     *("task", "drawing", "structure", "flow", "method", "worked", "tables", "curves", "reactions", "balance"),
-    *("free_bodies", "gears", "cams", "torque", "limits", "flywheel", "synthesis", "errata", "calls", "program"),
+    *(
+        "free_bodies",
+        "gears",
+        "cams",
+        "torque",
+        "limits",
+        "flywheel",
+        "run",
+        "synthesis",
+        "errata",
+        "calls",
+        "program",
+    ),
     *("comparison", "conclusion", "appendix", "references"),
 )
 
