@@ -110,8 +110,11 @@ class Stepper:
                 )
             dense = solver.dense_output()
             hit, armed = self._look(system, watched, dense, solver.t_old, solver.t, armed)
+            end = solver.t if hit is None else hit[0]
+            if not system.assembled(end, dense(end)):
+                raise StepTooSmall
             found.dense.append(dense)
-            found.ends.append(solver.t if hit is None else hit[0])
+            found.ends.append(end)
             if hit is not None:
                 time, happens = hit
                 yield found, time, np.asarray(dense(time)), happens

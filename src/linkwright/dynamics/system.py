@@ -177,6 +177,10 @@ class System:
         side.out[:n] = np.nan
 
     # what it is described by ------------------------------------------------------------------------------
+    def assembled(self, t: float, y: Floats) -> bool:
+        """Whether all links can be put together in a state, also those without mass, which accelerations need not."""
+        return bool(self.evaluate(self.full, t, y)[self.place["outcome"]] == 0.0)
+
     @property
     def margin(self) -> float:
         """Positive until something must be done about a singular position, where ``full`` was called last."""
