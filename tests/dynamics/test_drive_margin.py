@@ -213,3 +213,30 @@ def test_a_force_against_the_velocity_resists_at_rest_as_well() -> None:
     theta = found.input
     beta = np.arcsin(np.sin(theta) * RADIUS / 0.3)
     assert found.needed == pytest.approx(np.abs(FORCE * RADIUS * np.sin(theta + beta) / np.cos(beta)), abs=1e-9)
+
+
+def test_a_free_slide_is_looked_at_between_its_dead_points() -> None:
+    """The piston drives a crank with 4 N·m against it: F = M cos β/(r sin(θ + β)), at 50 N from x to x."""
+    free = CRANK.format(rod=300, friction=0).partition("driver:")[0].replace("{B: forward}", "{A: left}")
+    free += """driver: {slide: guide, free: true, start: 300 mm}
+actuators: {push: {kind: constant, along: guide, force: 50 N}}
+loads: {brake: {kind: torque, on: crank, magnitude: 4 N·m}}
+"""
+    found = lw.drive_margin(lw.loads(free), steps=60)
+    assert found.dimension == "force" and found.running is None and found.verdict == "stall"
+    low, high = found.stretches
+    theta = np.linspace(1e-3, math.pi - 1e-3, 400_001)
+    beta = np.arcsin(np.sin(theta) / 3)
+    place = RADIUS * np.cos(theta) + 0.3 * np.cos(beta)
+    moved = place[4.0 * np.cos(beta) / (RADIUS * np.sin(theta + beta)) < 50.0]
+    assert [low.end, high.begin] == pytest.approx([moved.min(), moved.max()], abs=1e-6)
+
+
+def test_a_dead_point_of_the_input_itself() -> None:
+    """A piston that drives its crank to 0.1 mm from its end: cos ψ = (r² + l² - x²)/(2 r l)."""
+    text = CRANK.format(rod=300, friction=0).partition("driver:")[0].replace("{B: forward}", "{A: left}")
+    text += "driver: {slide: guide, speed: 10 mm/s, start: 300 mm}\ncycle: {from: 200.1 mm, to: 390 mm}\n"
+    found = lw.drive_margin(lw.loads(text), steps=20)
+    psi = math.acos((0.1**2 + 0.3**2 - 0.2001**2) / 0.06)
+    assert math.sqrt(found.quality.min()) == pytest.approx(math.sin(psi), rel=1e-9)
+    assert f"near 200.1 mm two links of 'Pump' are almost in line ({math.degrees(psi):.3g}°)" in found.findings[-1]

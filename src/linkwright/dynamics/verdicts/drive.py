@@ -12,14 +12,18 @@ from linkwright.core.arrays import Floats, largest
 from linkwright.drivers.constant_speed import ConstantSpeed
 from linkwright.dynamics.verdicts.quasi_static import Course, QuasiStatic
 from linkwright.errors import RequestError
+from linkwright.kinematics.input_range import input_range
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
+from linkwright.mechanism.cycle import Cycle
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.words import _
 
 #: Time, s, at which a machine in motion has been switched on for long.
 ALWAYS = 1e6
+#: Share of the range of a free input that is left out at each end.
+_SHORT = 0.01
 
 
 @dataclass(frozen=True)
@@ -48,10 +52,11 @@ class Torques:
 
     @property
     def ratio(self) -> Floats:
-        """Available over needed; infinite where the loads help, zero where no effort moves the machine."""
+        """Available over needed; infinite where the loads move the machine, zero where the drive pushes it back or no
+        effort moves it."""
         with np.errstate(all="ignore"):
-            found = np.where(self.needed > 0.0, self.available / self.needed, np.inf)
-        return np.where(np.isnan(self.needed), 0.0, found)
+            found = np.where(self.needed > 0.0, np.maximum(self.available, 0.0) / self.needed, np.inf)
+            return np.where(self.available >= self.needed, found, np.minimum(found, 1.0) * (self.needed > 0.0))
 
 
 class Drive:
@@ -189,7 +194,18 @@ def _at_constant_speed(mechanism: Mechanism) -> Mechanism:
         law = driver.law
         slow = ConstantSpeed(1.0 if law.rotary else 0.1 * mechanism.size, law.at(0.0), law.rotary)
         drivers[name] = driver if law.prescribed else replace(driver, law=slow)
-    return replace(mechanism, drivers=drivers)
+    found = replace(mechanism, drivers=drivers)
+    return _within_range(found) if len(drivers) == 1 and mechanism.cycle is None else found
+
+
+def _within_range(mechanism: Mechanism) -> Mechanism:
+    """The same over the range of its input, where that is no full turn, short of its dead points."""
+    found = input_range(mechanism)
+    if found.full or found.low is None or found.high is None:
+        return mechanism
+    low, high = found.low.value, found.high.value
+    short = _SHORT * (high - low)
+    return replace(mechanism, cycle=Cycle(start=low + short, end=high - short))
 
 
 def _senses(rates: Floats) -> Floats:

@@ -25,6 +25,8 @@ Kind = Literal["jam", "dead_point", "stall"]
 _BETWEEN, _ROUNDS = 33, 5
 #: Share of the largest available torque that is none.
 _NO_TORQUE = 1e-9
+#: Square of the sine of a transmission angle below which a position counts as a dead point: 2.6°.
+_DEAD = 2e-3
 #: An efficiency this near 1 is that of a machine without friction.
 _ROUNDING = 1e-12
 
@@ -66,7 +68,8 @@ class DriveMargin(PlotMixin, Numbers):
     """The torque that a machine needs against the torque that its actuators have, over its cycle.
 
     ``starting``: at rest, at the verge of motion; ``running``: at the speeds and accelerations of the cycle, None
-    where nothing gives them; ``stretches``: where it does not start; ``worst``: the position of the smallest margin
+    where nothing gives them; ``quality`` (n,): square of the sine of the worst transmission angle, 0 at a dead point
+    of the input itself; ``stretches``: where it does not start; ``worst``: the position of the smallest margin
     of starting; ``peak``: that of the largest torque needed to start.
     """
 
@@ -81,6 +84,8 @@ class DriveMargin(PlotMixin, Numbers):
     stretches: tuple[Stretch, ...]
     worst: Torques = field(repr=False)
     peak: Torques = field(repr=False)
+    quality: Floats = field(repr=False)
+    closed: bool = field(repr=False)
 
     @property
     def title(self) -> str:
@@ -118,8 +123,16 @@ class DriveMargin(PlotMixin, Numbers):
         """Mean available over mean needed torque at speed; NaN where it is not known."""
         if self.running is None or not self.driven:
             return np.nan
-        needed, available = (float(np.mean(each)) for each in (self.running.needed, self.running.available))
+        needed, available = (self._mean(each) for each in (self.running.needed, self.running.available))
         return np.inf if needed <= 0.0 else available / needed
+
+    def _mean(self, values: Floats) -> float:
+        """Mean of torques at speed over the way of the input."""
+        assert self.running is not None
+        rate, time = self.running.rate, self.running.time
+        if self.closed:
+            return float(np.average(values, weights=rate))
+        return float(np.trapezoid(values * rate, time) / np.trapezoid(rate, time))
 
     @property
     def efficiency(self) -> Floats:
@@ -164,11 +177,11 @@ class DriveMargin(PlotMixin, Numbers):
     def _running_rows(self, running: Torques) -> list[Row]:
         place = int(np.argmax(np.where(np.isnan(running.needed), np.inf, running.needed)))
         rows = [
-            Row("mean_needed", float(np.mean(running.needed)), self.dimension),
+            Row("mean_needed", self._mean(running.needed), self.dimension),
             self._placed("largest_needed", float(running.needed[place]), running.input[place:]),
         ]
         if self.driven:
-            rows.append(Row("mean_available", float(np.mean(running.available)), self.dimension))
+            rows.append(Row("mean_available", self._mean(running.available), self.dimension))
             rows.append(Row("running_margin", self.running_margin))
         return [each for each in rows if not np.isnan(each.value) or each.text]
 
@@ -213,6 +226,18 @@ class DriveMargin(PlotMixin, Numbers):
                 if np.isfinite(self.starting_margin)
                 else _("{name!r} starts from every position: its loads help to", name=self.mechanism.name)
             )
+        if float(np.nanmin(self.quality)) < _DEAD:
+            place = int(np.nanargmin(self.quality))
+            sentences.append(
+                _(
+                    "near {where} two links of {name!r} are almost in line ({angle}), a dead point of its input: the "
+                    "forces in its joints grow without bound there, and the smallest friction stops it",
+                    code="verdicts.input_dead_point",
+                    name=self.mechanism.name,
+                    where=shown(float(self.starting.input[place]), self._input),
+                    angle=shown(math.asin(math.sqrt(max(float(self.quality[place]), 0.0))), "angle", 3),
+                )
+            )
         if self.running_margin < 1.0 and self.running is not None:
             sentences.append(
                 _(
@@ -221,8 +246,8 @@ class DriveMargin(PlotMixin, Numbers):
                     "with run",
                     code="verdicts.too_slow",
                     name=self.mechanism.name,
-                    available=shown(float(np.mean(self.running.available)), self.dimension, 4),
-                    needed=shown(float(np.mean(self.running.needed)), self.dimension, 4),
+                    available=shown(self._mean(self.running.available), self.dimension, 4),
+                    needed=shown(self._mean(self.running.needed), self.dimension, 4),
                 )
             )
         return tuple(sentences)
@@ -321,6 +346,8 @@ def drive_margin(mechanism: Mechanism, *, driver: str | None = None, steps: int 
         stretches=tuple(_stretches(drive, starting)) if drive.driven else tuple(_jams(drive, starting)),
         worst=_lowest(drive, starting, (lambda each: each.ratio) if drive.driven else _unneeded),
         peak=_lowest(drive, starting, _unneeded),
+        quality=drive.quality(starting.time),
+        closed=drive.period is not None,
     )
 
 
@@ -395,7 +422,7 @@ def _ends(drive: Drive, found: Torques, run: Sequence[int], holds: Callable[[Tor
         for _round in range(_ROUNDS if outside is not None else 0):
             assert outside is not None
             torques = drive.starting(np.linspace(inside, outside, _BETWEEN))
-            if len(torques.time) < _BETWEEN:
+            if len(torques.time) < _BETWEEN or not holds(torques)[0]:
                 break
             last = int(np.flatnonzero(np.cumprod(holds(torques)))[-1])
             at = float(torques.input[last])
