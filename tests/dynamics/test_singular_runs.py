@@ -144,3 +144,39 @@ def test_a_run_may_begin_at_a_dead_point_from_rest() -> None:
 def test_a_speed_at_a_dead_point_says_nothing() -> None:
     with pytest.raises(lw.LinkwrightError, match="begins at a dead point, at driver = 1100 mm"):
         lw.run(lw.loads(ENGINE), at=1.1, speed=1.0)
+
+
+@pytest.mark.rotating
+@pytest.mark.parametrize("name", ["triad", "stephenson_sixbar_triad", "fourth_order_group"])
+def test_groups_without_closed_form_go_over_to_other_coordinates(name: str) -> None:
+    """The state of Newton's steps is handed over with the position."""
+    found = lw.run(lw.load(f"gallery:{name}"), duration=0.5, tolerance=1e-11)
+    assert dead_points(found)
+    assert found.energy_residual < 1e-8
+
+
+@pytest.mark.parametrize("at", [-90.0, 20.0])
+def test_where_nothing_has_inertia_a_run_is_refused(at: float) -> None:
+    """At the ends of its stroke the slide's mass does not move with the massless crank."""
+    text = ENGINE.replace(
+        "driver: {slide: guide, speed: 1 m/s, start: 0.9 m}", "driver: {turn: crank, speed: 1 rad/s}"
+    )
+    text = text.replace("assembly: {A: left}", "assembly: {B: forward}").replace(
+        "direction: 0 deg", "direction: -90 deg"
+    )
+    for mass, inertia in ((1, 0.3**2 / 12), (1, 0.8**2 / 12)):
+        text = text.replace(f", mass: {mass} kg, inertia: {inertia!r} kg·m²", "")
+    text = text.replace("turn: crank,", "turn: crank, about: O,")
+    with pytest.raises(lw.LinkwrightError, match=r"nothing with a mass moves .* at driver = -90°"):
+        lw.run(lw.loads(text), at=math.radians(at), duration=2.0)
+
+
+def test_designs_that_come_near_dead_points_run_by_themselves() -> None:
+    """The loop of many designs has no other coordinates, and would creep into the dead point."""
+    mechanism = lw.loads(DOUBLE_ROCKER)
+    found = lw.run_designs(mechanism, {"right.mass": [1.0, 1.3]}, duration=0.9)
+    assert found.outcomes == ("ended", "ended")
+    for number, mass in enumerate((1.0, 1.3)):
+        alone = lw.run(mechanism.with_dimensions({"right.mass": mass}), duration=0.9)
+        assert dead_points(alone)
+        assert found.coordinates["driver"][number] == pytest.approx(alone.end_state["driver"][0], rel=1e-9)

@@ -27,8 +27,8 @@ from linkwright.words.message import together
 
 #: Below this share of the fastest approach so far a stop is no longer bounced off.
 BOUNCES = 1e-6
-#: Below this share of the largest inertia so far there is none.
-MASSLESS = 1e-6
+#: Below this share of the largest inertia there is none; how far around a start that is looked for, rad or size.
+MASSLESS, ABOUT = 1e-6, 0.1
 #: Change of the speed from turn to turn below which a run is steady, as share of the speed.
 STEADY = 1e-8
 #: How long a run is without other conditions, and one that waits for rest or steadiness at most, s.
@@ -163,7 +163,7 @@ class _Course:
         self.system, self.y = self._start()
         self.end = _End.of(conditions)
         self.begin = self.system.drivers(self.t, self.y)[self.first.free[0]][0]
-        self.heaviest = np.zeros(len(self.equation.free))
+        self.heaviest = self._inertia_about()
         self.fastest: dict[int, float] = {}
         self.lost = 0.0
         self.at_once, self.held = 0, 0
@@ -209,6 +209,19 @@ class _Course:
         rates = np.where(rates > 0.0, rates, 1.0)
         energy = 0.5 * float(rates @ np.abs(system.mass(out)) @ rates)
         return self.tolerance * np.array([*ways, *rates, energy or 1.0])
+
+    def _inertia_about(self) -> Floats:
+        """The largest inertia of each free coordinate, (free,) kg·m² or kg, here and a little to both sides."""
+        system, found, carried = self.system, np.zeros(len(self.equation.free)), self.system.carried
+        for k, name in enumerate(self.equation.free):
+            unit = ABOUT * (1.0 if self.equation.rotary[name] else self.mechanism.size)
+            for side in (-unit, unit, 0.0):
+                y = self.y.copy()
+                y[k] += side
+                inertia = np.diag(system.mass(system.evaluate(system.full, self.t, y)))
+                found = np.fmax(found, inertia)
+                system.set_inputs(carried)
+        return found
 
     def _refuse_start(self, out: Floats) -> None:
         where = self._where(self.y)
@@ -482,7 +495,7 @@ class _Course:
         self.system, self.y = System(stretch), self._state(stretch, q, w, self.y[-1])
         n = len(self.equation.free)
         self.system.pace = np.abs(self.y[n : 2 * n])
-        self.heaviest = np.zeros(n)
+        self.heaviest = self._inertia_about()
         self.stepper.absolute = self._absolute()
         out = self.system.evaluate(self.system.full, self.t, self.y).copy()
         self._set_sides(out, range(len(self.system.surfaces)))

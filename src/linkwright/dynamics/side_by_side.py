@@ -16,12 +16,14 @@ from linkwright.dynamics.run import STEADY
 from linkwright.dynamics.switches import gap_name, switch_name
 from linkwright.dynamics.system import CLOSING_STEPS, Surface, surfaces_of
 from linkwright.formula.program import Program
-from linkwright.formula.trace import Scalar, absolute, sqrt
+from linkwright.formula.trace import Scalar, absolute, minimum, sqrt
 
 #: Inputs of the program: where a turn begins and how long it is; the speed that is to be reached.
 BEGIN, TURN, SPEED = "run:begin", "run:turn", "run:speed"
 #: Outputs: what is left of the turn, how far the speed is beyond the one to be reached.
 LEFT, BEYOND = "run:left", "run:beyond"
+#: Output: the smallest quality of a group less that below which a design runs by itself, through dead points.
+SINGULAR, NEARLY_SINGULAR = "run:singular", 0.01
 #: Before the names of loads and actuators whose numbers are found from the machine's cycle.
 _OF_CYCLE = ("limit:", "value:", "middle:")
 #: Steps of one design; more are needed where its forces are too stiff, or rounding is all that changes.
@@ -47,7 +49,7 @@ class Ends:
     """Where they end: ``outcomes``, ``time``, ``coordinates`` and ``rates`` (designs, free), ``reached`` (s),
     ``peaks`` and mean ``squares`` (designs, actuators), ``kinetic`` energy and ``work`` since the start (J),
     ``residual`` as share of the larger; ``met``: whether the turns are made, or a turn is as the one before;
-    ``undecided``: designs in which something sticks."""
+    ``undecided``: designs in which something sticks, or that come near to a singular position."""
 
     outcomes: Sequence[Outcome]
     time: Floats
@@ -98,6 +100,7 @@ class SideBySide:
         """What the loop integrates."""
         numbers = range(len(self.equation.switches.lines))
         events = [Event(gap_name(k), Action.FLIP, switch_name(k)) for k in numbers]
+        events += [Event(SINGULAR)] if self.equation.groups else []
         events += [Event(LEFT), Event(BEYOND, Action.NOTE)]
         inputs = [*self.varied, *self.equation.switches.names, BEGIN, TURN, SPEED]
         carried = {name: f"next:{name}" for name in self.equation.states}
@@ -110,6 +113,10 @@ class SideBySide:
         first = self.equation.free[0]
         q, w = t.position(f"q:{first}"), t.position(f"w:{first}")
         more = {LEFT: t.position(TURN) - absolute(q - t.position(BEGIN)), BEYOND: w - t.position(SPEED)}
+        least: Scalar = 1.0
+        for group in self.equation.groups:
+            least = minimum(least, _number(out[f"quality:{group}"]))
+        more[SINGULAR] = least - NEARLY_SINGULAR
         seconds = {name: _number(out[f"a:{name}"]) for name in self.equation.free}
         efforts = self.equation.written(t, self.actuators, seconds)
         more |= {f"effort:{name}": value for name, value in efforts.items()}
@@ -127,12 +134,27 @@ class SideBySide:
         motions = self._motions(columns, starts)
         given = {name: motions.inputs[:, place] for place, name in enumerate(self.layout.all_inputs)}
         self._close(motions, given)
-        undecided = self._take_sides(motions, given)
+        undecided = self._take_sides(motions, given) | self._begins_singular(motions, given)
         before = self._kinetic(motions, given)
         met = self._advance(motions, starts, tolerance, threads, ~undecided)
         outcomes = motions.outcomes
         undecided |= np.array([each is Outcome.RETURNED for each in outcomes], dtype=np.bool_)
+        undecided |= self._singular(motions)
         return self._ends(motions, before, self._kinetic(motions, given), met, undecided)
+
+    def _singular(self, motions: Motions) -> Flags:
+        """Designs that have come near to a singular position, which runs by themselves go through."""
+        if not self.equation.groups:
+            return np.zeros(len(motions.records), dtype=np.bool_)
+        return np.isfinite(motions.times[:, -3])
+
+    def _begins_singular(self, motions: Motions, inputs: Mapping[str, Floats]) -> Flags:
+        """Designs that begin there."""
+        names, count = [f"quality:{group}" for group in self.equation.groups], len(motions.records)
+        if not names:
+            return np.zeros(count, dtype=np.bool_)
+        least = self.equation.evaluate(names, self._given(motions, inputs), count).min(axis=0)
+        return np.asarray(least <= NEARLY_SINGULAR)
 
     def _motions(self, columns: Mapping[str, Floats], starts: Starts) -> Motions:
         n, (count, _) = len(self.equation.free), starts.coordinates.shape
@@ -170,6 +192,7 @@ class SideBySide:
                 motions, relative=tolerance, absolute=errors, most=MOST_STEPS, threads=threads, rows=rows
             )
             stopped = np.array([each is Outcome.STOPPED for each in motions.outcomes], dtype=np.bool_) & active
+            stopped &= ~self._singular(motions)
             now = motions.state[:, n : 2 * n]
             change, size = np.abs(now - before).max(axis=1), np.abs(now).max(axis=1)
             met |= stopped & ((change <= STEADY * size) | (not starts.steady))

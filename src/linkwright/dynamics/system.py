@@ -166,7 +166,7 @@ class System:
     def _close(self, side: Side) -> None:
         """Goes on with Newton's steps until the groups without closed form are closed."""
         rows, n = self._states[side], len(self.free) + 1
-        found = side.out[n : n + len(rows)]
+        found, begin = side.out[n : n + len(rows)], side.x[self._states[side]].copy()
         for _step in range(CLOSING_STEPS):
             change = np.abs(found - side.x[rows]).max()
             side.x[rows] = found
@@ -174,6 +174,7 @@ class System:
                 return
             side.call()
         self.missed += 1
+        side.x[rows] = begin  # a trial out of reach must not be where the next one begins
         side.out[:n] = np.nan
 
     # what it is described by ------------------------------------------------------------------------------
