@@ -31,10 +31,12 @@ class Alone:
 
 def found_alone(run: Run, speed: float) -> Alone:
     """What a run gives; ``speed`` of the first coordinate to be reached, NaN for none."""
+    from scipy.integrate import trapezoid
+
     state = run.end_state
     times = np.linspace(0.0, run.end, LOOKS)
     efforts = _efforts(run, times)
-    squares = {name: np.trapezoid(each**2, times) for name, each in efforts.items()}
+    squares = {name: trapezoid(each**2, times) for name, each in efforts.items()}
     return Alone(
         run.end,
         {name: q for name, (q, _w) in state.items()},
