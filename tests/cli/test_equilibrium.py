@@ -66,5 +66,5 @@ def test_files_of_positions(tmp_path: Path) -> None:
 def test_refusals(two: str) -> None:
     is_refused(["equilibrium", TOGGLE, "--push", "S=3 N"], "equilibrium.no_force")
     is_refused(["equilibrium", two, "--range", "0..90 deg"], "equilibrium.no_driver_named")
-    is_refused(["equilibrium", two, "--hold", "thre=0 deg"], "solve.no_driver", name="thre")
+    is_refused(["equilibrium", two, "--hold", "thre=0 deg"], "solve.no_driver", name="--hold")
     is_refused(["equilibrium", TOGGLE, "--range", "90 deg"], "compensate.bad_zone", option="--range")
