@@ -125,3 +125,11 @@ def test_a_machine_with_dry_joints_coasts() -> None:
     expected = by_multibody(mechanism, [0.0, 0.05], at={"driver": 0.3}, speed={"driver": 9.0}, rtol=1e-9)
     assert not disagreements(found, expected, within=1e-8, forces_within=1e-7)
     assert found.energy_residual < 1e-10
+
+
+@pytest.mark.rotating
+def test_joints_that_could_not_lead_do_not_stop_a_run() -> None:
+    """Near a dead point all joints are looked at as coordinates, of which some would determine nothing."""
+    mechanism = lw.loads(random_case(128, with_loads=True).text)
+    found = lw.run(mechanism, duration=0.5, tolerance=1e-12)
+    assert not disagreements(found, by_multibody(mechanism, [0.0, 0.5], rtol=1e-11))

@@ -305,7 +305,7 @@ def _number(value: Scalar | bool) -> Scalar:
 
 def group_quality(motion: MotionTrace, group: str) -> Scalar:
     """Square of the determinant of a group's Jacobian over those of its columns: of two pinned bars the square of the
-    sine between them.
+    sine between them; 0 where a joint of the group moves none of its ends, so that it never determines it.
 
     A dyad's own square root does not do: where the outer joints of equal bars coincide it has its best value, and the
     position is open.
@@ -316,4 +316,6 @@ def group_quality(motion: MotionTrace, group: str) -> Scalar:
     size: Scalar = 1.0
     for column in zip(*matrix, strict=True):
         size = size * sum((each * each for each in column), 0.0)
+    if isinstance(size, float) and size == 0.0:
+        return 0.0
     return value * value / size
