@@ -113,6 +113,21 @@ gravity: [0, -9.81 m/s²]
     assert found.forces.balance_residual[0] < 1e-10
 
 
+def test_a_load_at_a_dead_point_of_its_way() -> None:
+    """A force against the motion of a block that is at rest for a moment does nothing there."""
+    found = lw.release(lw.load("gallery:chain_drive"))
+    assert found.outcome == "moves"
+    assert found.forces.balance_residual[0] < 1e-12
+    assert lw.release(lw.load("gallery:pinion_between_racks")).outcome == "rests"
+
+
+def test_teeth_that_stick_have_no_worked_solution() -> None:
+    found = lw.release(lw.load("gallery:rack_and_rocker"))
+    assert found.outcome == "sticks"
+    with pytest.raises(lw.LinkwrightError, match="sticks"):
+        found.worked()
+
+
 def test_what_balances_rests() -> None:
     assert lw.release(lw.loads(ROD.format(mass=3, inertia=0.36)), at=radians(-90)).outcome == "rests"
 

@@ -13,7 +13,7 @@ from linkwright.dynamics.release import Release
 from linkwright.dynamics.states import FoundForces, FoundMotion, FoundStates, motion_at
 from linkwright.equations.steps import Equation, Item, Step
 from linkwright.equations.terms import NOWHERE, ZERO, Pair, Term, symbol, total
-from linkwright.errors import require_language, speaker
+from linkwright.errors import LinkwrightError, require_language, speaker
 from linkwright.kinematics.positions import Positions
 from linkwright.words import Message, Translate, _
 from linkwright.worked_solutions.applied_forces import Known, KnownForces
@@ -27,6 +27,15 @@ from linkwright.worked_solutions.unit_motion import BENT, UNIT, BentTable, UnitT
 def worked(release: Release, *, language: str = "en") -> Worked:
     """The worked solution of a release; see :meth:`linkwright.Release.worked`."""
     require_language(language)
+    if release.outcome == "sticks" and release.mechanism.higher:
+        raise LinkwrightError(
+            _(
+                "{name!r} sticks: the forces of its teeth and belts then lie between those of setting out either "
+                "way, which no formula on paper gives; ask for a position in which it moves",
+                code="worked.sticks_in_pairs",
+                name=release.mechanism.name,
+            )
+        )
     translate = speaker(language)
     book = SymbolTable(release.motion, 0, translate)
     steps = _Writer(release, book, translate).steps()
