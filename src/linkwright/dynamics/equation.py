@@ -116,8 +116,11 @@ class EquationOfMotion:
 
     @cached_property
     def start(self) -> Floats:
-        """The drivers' coordinates in the drawing, else where their laws begin, (drivers,) rad or m."""
-        return np.array([self.solver.assembly.inputs[name] for name in self.names])
+        """Where the drivers' laws begin; of one without a law its ``start``, else its place in the drawing; (drivers,)
+        rad or m."""
+        laws = {name: self.source.drivers[name].law.own for name in self.names}
+        begins = {name: law.at(0.0) for name, law in laws.items() if law.prescribed or law.at(0.0) != 0.0}
+        return np.array([begins.get(name, self.solver.assembly.inputs[name]) for name in self.names])
 
     @cached_property
     def groups(self) -> list[str]:
