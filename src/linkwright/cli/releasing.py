@@ -45,7 +45,7 @@ def free_run(mechanism: Mechanism, warnings: list[Finding], options: Options, se
         else:
             session.show("\n\n\n".join(page.text() for page in pages))
         return 0
-    states = together([each.motion.found for each in found])
+    states = together([each.states for each in found])
     motion = motion_at(states)
     solved = Solved(motion, forces_at(motion), np.arange(motion.steps), tuple(warnings))
     table = data(solved, options) | {"released": [_data(each) for each in found]}

@@ -116,8 +116,8 @@ class EquationOfMotion:
 
     @cached_property
     def start(self) -> Floats:
-        """Where the drivers' laws begin; of one without a law its ``start``, else its place in the drawing; (drivers,)
-        rad or m."""
+        """Where the drivers' laws begin; of one without a law its ``start``, else its place in the drawing, rad or m,
+        (drivers,)."""
         laws = {name: self.source.drivers[name].law.own for name in self.names}
         begins = {name: law.at(0.0) for name, law in laws.items() if law.prescribed or law.at(0.0) != 0.0}
         return np.array([begins.get(name, self.solver.assembly.inputs[name]) for name in self.names])

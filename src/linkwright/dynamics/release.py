@@ -14,7 +14,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.attached import attached
 from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.setting_out import Outcome, SettingOut
-from linkwright.dynamics.states import FoundForces, FoundMotion, forces_at, motion_at
+from linkwright.dynamics.states import FoundForces, FoundMotion, FoundStates, forces_at, motion_at
 from linkwright.errors import RequestError
 from linkwright.kinematics.positions import Positions, at_times
 from linkwright.mechanism.mechanism import Mechanism
@@ -54,11 +54,18 @@ class Release:
         """Of all inputs, rad/s² or m/s²."""
         return {name: float(second[0]) for name, (_q, _w, second) in self.motion.positions.coordinates.items()}
 
+    @property
+    def states(self) -> FoundStates:
+        """What its motion and forces are read from."""
+        found = self.motion.found
+        assert isinstance(found, FoundStates)
+        return found
+
     @cached_property
     def _terms(self) -> tuple[Floats, Floats, float]:
         free = self.equation.free
         names = [f"M:{a}:{b}" for a in free for b in free] + [f"h:{a}" for a in free] + ["kinetic"]
-        found = self.motion.found
+        found = self.states
         rows = sum(share * self.equation.evaluate(names, {**found.given, **held}, 1) for share, held in found.held)
         values = np.asarray(rows)[:, 0]
         n = len(free)
@@ -77,7 +84,7 @@ class Release:
     @cached_property
     def friction_used(self) -> float:
         """How much of the friction that there could be holds a mechanism of one freedom that sticks, 0 to 1."""
-        shares = [float(np.ravel(share)[0]) for share, _held in self.motion.found.held]
+        shares = [float(np.ravel(share)[0]) for share, _held in self.states.held]
         return abs(shares[0] - shares[1]) if self.outcome == "sticks" and len(shares) == 2 else 1.0
 
     @property

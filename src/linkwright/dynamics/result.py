@@ -2,27 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arguments import STEPS
-from linkwright.core.arrays import Floats
 from linkwright.core.attached import PlotMixin, attached
 from linkwright.core.data import locked
 from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.integration import Piece
 from linkwright.dynamics.samples import Samples
+from linkwright.dynamics.states import FoundForces, FoundMotion, forces_at, motion_at
 from linkwright.errors import RequestError
-from linkwright.formula.trace import Scalar
-from linkwright.kinematics.motion import Motion, Rows
-from linkwright.kinematics.positions import Positions
-from linkwright.kinetostatics.forces import Forces
-from linkwright.kinetostatics.solver import ForceSolver, in_words
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import Message, _, pgettext
 
@@ -55,48 +49,6 @@ class Happening:
 
     def __str__(self) -> str:
         return str(KINDS[self.kind].format(name=self.name))
-
-
-class RunMotion(Motion):
-    """A motion whose coordinates are those of a run: all outputs are found from the equation of motion."""
-
-    by_law: ClassVar[bool] = False
-    samples: Samples
-
-    @classmethod
-    def of(cls, samples: Samples) -> RunMotion:
-        """At the times of samples, (n,)."""
-        equation = samples.equation
-        solver = equation.solver
-        positions = Positions(samples.time, samples.course, equation.rotary, cycle=True)
-        names = solver.outputs.standard
-        rows = Rows(samples.rows(names, forces=False), solver.programs.places(names))
-        found = cls(solver, solver.nominal, positions, rows)
-        found.samples = samples
-        return found
-
-    def evaluate(self, names: tuple[str, ...]) -> Floats:
-        return self.samples.rows(names, forces=any(map(in_words, names)))
-
-
-class RunForces(Forces):
-    """The forces of such a motion; drivers supply none, actuators are among the loads."""
-
-    @classmethod
-    def of(cls, motion: RunMotion) -> RunForces:
-        """Of a motion of a run."""
-        solver = motion.samples.equation.forces
-        names = solver.outputs.standard
-        rows = Rows(motion.samples.rows(names, forces=True), {name: k for k, name in enumerate(names)})
-        return cls(motion, solver, {}, False, rows)
-
-    def evaluate(self, names: tuple[str, ...]) -> Floats:
-        assert isinstance(self.motion, RunMotion)
-        return self.motion.samples.rows(names, forces=True)
-
-    def evaluate_traced(self, outputs: Callable[[ForceSolver], dict[str, Scalar]]) -> Floats:
-        assert isinstance(self.motion, RunMotion)
-        return self.motion.samples.values(outputs)
 
 
 @dataclass(eq=False)
@@ -145,13 +97,13 @@ class Run(PlotMixin):
             )
         return Samples(self.equation, self.pieces, locked(np.minimum(time, self.end)))
 
-    def motion(self, steps: int = STEPS, times: ArrayLike | None = None) -> RunMotion:
+    def motion(self, steps: int = STEPS, times: ArrayLike | None = None) -> FoundMotion:
         """The motion at equal steps of the time, or at ``times``, s."""
-        return RunMotion.of(self.samples(np.linspace(0.0, self.end, steps + 1) if times is None else times))
+        return motion_at(self.samples(np.linspace(0.0, self.end, steps + 1) if times is None else times))
 
-    def joint_forces(self, steps: int = STEPS, times: ArrayLike | None = None) -> RunForces:
+    def joint_forces(self, steps: int = STEPS, times: ArrayLike | None = None) -> FoundForces:
         """The forces at the same times."""
-        return RunForces.of(self.motion(steps, times))
+        return forces_at(self.motion(steps, times))
 
     @attached
     def as_driven(self) -> Mechanism:

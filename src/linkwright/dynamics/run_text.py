@@ -8,7 +8,8 @@ from typing import Any
 
 from linkwright.core.arrays import Floats, largest
 from linkwright.core.table import Amount, Cell, Table, Tabular
-from linkwright.dynamics.result import KINDS, Happening, Run, RunForces
+from linkwright.dynamics.result import KINDS, Happening, Run
+from linkwright.dynamics.states import FoundForces
 from linkwright.dynamics.verdicts.stalled_run import stalled
 from linkwright.errors import RequestError
 from linkwright.kinematics.positions import coordinate_text
@@ -37,10 +38,10 @@ class RunText(Tabular):
             )
         self.run = run
         self.steps = steps
-        self._forces: RunForces | None = None
+        self._forces: FoundForces | None = None
 
     @property
-    def forces(self) -> RunForces:
+    def forces(self) -> FoundForces:
         """Motion and forces at equal steps of the time."""
         if self._forces is None:
             self._forces = self.run.joint_forces(self.steps)

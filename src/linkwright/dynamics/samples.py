@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -19,6 +19,7 @@ from linkwright.dynamics.stops import contact_name
 from linkwright.dynamics.switches import switch_name
 from linkwright.errors import RequestError
 from linkwright.formula.trace import Scalar
+from linkwright.kinematics.positions import Positions
 from linkwright.kinetostatics.solver import ForceSolver
 
 
@@ -29,6 +30,8 @@ class Samples:
     equation: EquationOfMotion
     pieces: Sequence[Piece]
     time: Floats
+    states: Mapping[str, Floats] = field(default_factory=dict)
+    modes: Mapping[str, Floats] = field(default_factory=dict)
 
     @cached_property
     def parts(self) -> list[Part]:
@@ -49,6 +52,11 @@ class Samples:
             rows = [np.concatenate([part.course[name][order] for part in self.parts]) for order in range(3)]
             found[name] = (rows[0], rows[1], rows[2])
         return found
+
+    @property
+    def positions(self) -> Positions:
+        """The same as positions of a motion."""
+        return Positions(self.time, self.course, self.equation.rotary, cycle=True)
 
     @property
     def work(self) -> Floats:

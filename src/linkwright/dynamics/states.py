@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import ClassVar
+from typing import ClassVar, Protocol
 
 import numpy as np
 
@@ -24,6 +24,27 @@ from linkwright.kinetostatics.solver import ForceSolver, in_words
 
 #: Inputs of the equation's programs by name, (n,) each or one number.
 Given = Mapping[str, Floats | float]
+
+
+class Found(Protocol):
+    """States at n times, as what motions and forces over them are read from."""
+
+    @property
+    def equation(self) -> EquationOfMotion: ...
+    @property
+    def positions(self) -> Positions: ...
+    @property
+    def states(self) -> Mapping[str, Floats]: ...
+    @property
+    def modes(self) -> Mapping[str, Floats]: ...
+
+    def rows(self, names: tuple[str, ...], *, forces: bool) -> Floats:
+        """Rows of the motion, or of it and its forces, by name (see ``core.outputs``), (names, n)."""
+        ...
+
+    def values(self, outputs: Callable[[ForceSolver], dict[str, Scalar]]) -> Floats:
+        """Values of the trace of motion and forces by any names, (outputs, n), that it names of a solver."""
+        ...
 
 
 @dataclass
@@ -46,23 +67,16 @@ class FoundStates:
             found |= {f"q:{name}": q, f"w:{name}": rate, Input("second", name).name: second}
         return found
 
-    def motion_rows(self, names: tuple[str, ...]) -> Floats:
-        """Rows of the motion, (names, n)."""
-        outputs = self.equation.solver.outputs
-        return self._run(names, lambda: self.equation.value_program({name: outputs.value(name) for name in names}))
+    def rows(self, names: tuple[str, ...], *, forces: bool) -> Floats:
+        """As :meth:`Found.rows`."""
+        key = (*names, str(forces))
+        if key not in self._programs:
+            self._programs[key] = self.equation.row_program(names, forces=forces)
+        return self._blended(self._programs[key])
 
-    def force_rows(self, names: tuple[str, ...]) -> Floats:
-        """Rows of the forces, (names, n)."""
-        return self._run(names, lambda: self.equation.row_program(names, forces=True))
-
-    def values(self, outputs: Mapping[str, Scalar]) -> Floats:
-        """Values of the trace of motion and forces, (outputs, n)."""
-        return self._blended(self.equation.value_program(outputs))
-
-    def _run(self, names: tuple[str, ...], program: Callable[[], Program]) -> Floats:
-        if names not in self._programs:
-            self._programs[names] = program()
-        return self._blended(self._programs[names])
+    def values(self, outputs: Callable[[ForceSolver], dict[str, Scalar]]) -> Floats:
+        """As :meth:`Found.values`."""
+        return self._blended(self.equation.value_program(outputs(self.equation.forces)))
 
     def _blended(self, program: Program) -> Floats:
         found = [
@@ -96,12 +110,11 @@ class FoundMotion(Motion):
     """The motion at states that were found; see :class:`linkwright.Motion`."""
 
     by_law: ClassVar[bool] = False
-    found: FoundStates = field(kw_only=True)
+    found: Found = field(kw_only=True)
 
     def evaluate(self, names: tuple[str, ...]) -> Floats:
         """Outputs by name, (names, n), in the user's words as well; NaN where a position was not reached."""
-        rows = self.found.force_rows if any(map(in_words, names)) else self.found.motion_rows
-        values = rows(names)
+        values = self.found.rows(names, forces=any(map(in_words, names)))
         if not self.ok.all():
             values[:, ~self.ok] = np.nan
         return values
@@ -112,25 +125,25 @@ class FoundForces(Forces):
     """The forces at states that were found; see :class:`linkwright.Forces`. The effort of a driver that is free is
     zero but for rounding."""
 
-    found: FoundStates = field(kw_only=True)
+    found: Found = field(kw_only=True)
 
     def evaluate(self, names: tuple[str, ...]) -> Floats:
         """Outputs by name, (names, n); NaN where a position was not reached."""
-        values = self.found.force_rows(names)
+        values = self.found.rows(names, forces=True)
         if not self.motion.ok.all():
             values[:, ~self.motion.ok] = np.nan
         return values
 
     def evaluate_traced(self, outputs: Callable[[ForceSolver], dict[str, Scalar]]) -> Floats:
         """Values of the trace of motion and forces, (outputs, n)."""
-        return self.found.values(outputs(self.solver))
+        return self.found.values(outputs)
 
 
-def motion_at(found: FoundStates) -> FoundMotion:
+def motion_at(found: Found) -> FoundMotion:
     """The motion at states that were found."""
     solver = found.equation.solver
     names = solver.outputs.standard
-    values = found.motion_rows(names)
+    values = found.rows(names, forces=False)
     values[:-1, values[-1] != 0.0] = np.nan
     rows = Rows(values, solver.programs.places(names))
     return FoundMotion(solver, solver.nominal, found.positions, rows, found.states, found.modes, found=found)
@@ -143,7 +156,7 @@ def forces_at(motion: FoundMotion) -> FoundForces:
     """
     solver = motion.found.equation.forces
     names = solver.programs.checks.names
-    values = motion.found.force_rows(names)
+    values = motion.found.rows(names, forces=True)
     values[:, ~motion.ok] = np.nan
     rows = Rows(values, {name: place for place, name in enumerate(names)})
     solver.programs.checks.require(rows, motion)

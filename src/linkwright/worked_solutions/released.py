@@ -73,7 +73,7 @@ class _Writer:
 
     def _motion(self, rates: Mapping[str, float] | None, seconds: Mapping[str, float] | None = None) -> FoundMotion:
         """The motion at the position with other rates (None: its own) and accelerations, zero where not given."""
-        found = self.release.motion.found
+        found = self.release.states
         coordinates = {
             name: (
                 q,
@@ -167,7 +167,7 @@ class _Writer:
     # forces -----------------------------------------------------------------------------------------------
     def _known(self, second: float | None) -> KnownForces:
         """Weights, loads and friction, where the accelerations of free inputs are zero or (None) as they are."""
-        found = self.release.motion.found
+        found = self.release.states
         if second is not None and not self.equation.rubs:
             found = replace(found, positions=self.bent.motion.positions)
         forces = self.release.forces
