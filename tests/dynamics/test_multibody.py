@@ -85,6 +85,7 @@ gravity: [0, -9.81 m/s²]
     assert owner.acceleration(0.0, *start)[1:, 2] == pytest.approx([wanted, wanted, wanted, 0.0], abs=1e-10)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("text", "end"),
     [(models.CRANK_ROCKER, 0.6), (models.TRIPLE_ROCKER, 1.4), (models.DOUBLE_PENDULUM, 0.8), (models.FIVE_BAR, 0.2)],

@@ -97,6 +97,7 @@ def test_andrews_squeezer() -> None:
     assert not disagreements(found, expected, within=1e-8, unlike={"direction": 2e-10, "position": 2e-10})
 
 
+@pytest.mark.rotating
 def test_links_of_a_triad_are_found_where_the_run_was() -> None:
     """Long after the start the triad has another position that Newton's method would reach from the end."""
     mechanism = lw.loads(random_case(96, with_loads=True).text)
