@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.integrate import trapezoid
 
 import linkwright as lw
 
@@ -132,6 +133,6 @@ def test_a_crusher_gets_the_motor_that_starts_it_in_its_stroke() -> None:
     assert found.energy_residual < 1e-9
     duty, eta = choice.best.duty, choice.best.motor.efficiency or 1.0
     driving = np.where(duty.torque > 0.0, eta, 1.0 / eta)
-    given = np.trapezoid(duty.torque * duty.speed * driving, duty.time)
+    given = trapezoid(duty.torque * duty.speed * driving, duty.time)
     load = lw.solve_forces(crusher, static=True, steps=2000)
     assert given == pytest.approx(2 * math.pi * abs(float(np.mean(load.input_torque))), rel=2e-3)

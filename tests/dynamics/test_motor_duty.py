@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.integrate import trapezoid
 
 import linkwright as lw
 
@@ -53,7 +54,7 @@ def test_a_servo_rocks_its_flywheel() -> None:
     expected = np.where(load > 0.0, load / 8.0, load * 0.08)
     moving = np.abs(rate) > 1e-6
     assert duty.torque[moving] == pytest.approx(expected[moving], rel=1e-9)
-    assert duty.rms == pytest.approx(math.sqrt(np.trapezoid(expected**2, t) / (2 * math.pi)), rel=1e-3)
+    assert duty.rms == pytest.approx(math.sqrt(trapezoid(expected**2, t) / (2 * math.pi)), rel=1e-3)
 
 
 def test_what_a_servo_is_too_small_for() -> None:

@@ -165,6 +165,13 @@ def switched_off(mechanism: Mechanism) -> dict[str, Actuator]:
     return {name: replace(each, begin=None, until=None if each.brakes else 0.0) for name, each in found.items()}
 
 
+def mean_over(x: Floats, values: Floats) -> float:
+    """Mean of values at increasing places or times, by the trapezoidal rule."""
+    from scipy.integrate import trapezoid
+
+    return float(trapezoid(values, x) / (x[-1] - x[0]))
+
+
 def _driver(mechanism: Mechanism, driver: str | None) -> str:
     if not mechanism.drivers:
         raise RequestError(

@@ -14,7 +14,7 @@ from linkwright.core.arrays import Flags, Floats, largest
 from linkwright.core.attached import PlotMixin
 from linkwright.core.quantity import INFINITE, shown
 from linkwright.core.table import PERCENT, Block, Numbers, Row
-from linkwright.dynamics.verdicts.drive import Drive, Torques
+from linkwright.dynamics.verdicts.drive import Drive, Torques, mean_over
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.units import si_unit
 from linkwright.words import Message, Translate, _
@@ -132,7 +132,7 @@ class DriveMargin(PlotMixin, Numbers):
         rate, time = self.running.rate, self.running.time
         if self.closed:
             return float(np.average(values, weights=rate))
-        return float(np.trapezoid(values * rate, time) / np.trapezoid(rate, time))
+        return mean_over(time, values * rate) / mean_over(time, rate)
 
     @property
     def efficiency(self) -> Floats:

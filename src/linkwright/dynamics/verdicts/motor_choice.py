@@ -16,7 +16,7 @@ from linkwright.core.progress import Progress, current_progress
 from linkwright.core.quantity import shown
 from linkwright.core.table import PERCENT, Amount, Cell, Table, Tabular
 from linkwright.dynamics.verdicts.catalogue import Catalogue, ListedGear, ListedMotor, read_catalogue
-from linkwright.dynamics.verdicts.drive import Drive, Torques
+from linkwright.dynamics.verdicts.drive import Drive, Torques, mean_over
 from linkwright.dynamics.verdicts.drive_margin import drive_margin
 from linkwright.dynamics.verdicts.motor_duty import (
     ROUNDING,
@@ -378,7 +378,7 @@ class _Task:
         """That its largest torque at any speed is below the mean that is needed."""
         i, eta = transmission(motor), motor.efficiency or 1.0
         most = i * eta * float(motor_torque(motor, np.linspace(0.0, i * self.speed, 201)).max())
-        mean = float(np.trapezoid(self._resisting, self._torques.time) / np.ptp(self._torques.time))
+        mean = mean_over(self._torques.time, self._resisting)
         if most >= mean:
             return None
         return _(

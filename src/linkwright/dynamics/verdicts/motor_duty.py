@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, ClassVar, Literal, cast
@@ -16,7 +17,7 @@ from linkwright.core.quantity import shown
 from linkwright.core.table import PERCENT, Block, Numbers, Row
 from linkwright.dynamics.result import Run
 from linkwright.dynamics.run import run
-from linkwright.dynamics.verdicts.drive import ALWAYS, Drive, Torques
+from linkwright.dynamics.verdicts.drive import ALWAYS, Drive, Torques, mean_over
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.formula.numpy_backend import numpy_program
 from linkwright.formula.program import Program
@@ -76,7 +77,7 @@ class MotorDuty(PlotMixin, Numbers):
     run_up_rms: float | None = None
 
     def _mean(self, values: Floats) -> float:
-        return float(np.trapezoid(values, self.time) / (self.time[-1] - self.time[0]))
+        return mean_over(self.time, values)
 
     @property
     def rms(self) -> float:
@@ -366,7 +367,7 @@ def _by_run(mechanism: Mechanism, motor: Motor, driver: str, steps: int) -> Moto
     speed = i * sense * rates
     up = np.linspace(0.0, found.end, max(20 * steps, 2))
     early = sense * found.samples(up).course[driver][1]
-    reached = up[int(np.argmax(early >= RUN_UP * float(np.trapezoid(sense * rates, times) / (times[-1] - begin))))]
+    reached = up[int(np.argmax(early >= RUN_UP * mean_over(times, sense * rates)))]
     first = np.linspace(0.0, reached, steps + 1)
     heating = motor_torque(motor, i * sense * found.samples(first).course[driver][1], first)
     return MotorDuty(
@@ -380,5 +381,5 @@ def _by_run(mechanism: Mechanism, motor: Motor, driver: str, steps: int) -> Moto
         limit=limits(motor, speed, motor.rating),
         rating=motor.rating,
         run_up=float(reached),
-        run_up_rms=float(np.sqrt(np.trapezoid(heating**2, first) / reached)) if reached else 0.0,
+        run_up_rms=math.sqrt(mean_over(first, heating**2)) if reached else 0.0,
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.dynamics.verdicts.drive import Torques
+from linkwright.dynamics.verdicts.drive import Torques, mean_over
 from linkwright.dynamics.verdicts.drive_margin import DriveMargin
 from linkwright.dynamics.verdicts.motor_duty import MotorDuty, limits, motor_torque
 from linkwright.pictures.diagram import COLOURS, FAINT, Figure, new_figure
@@ -66,7 +66,7 @@ def draw_operating_points(result: MotorDuty, request: Request) -> Figure:
             axes.plot(RPM * speed, -unit.factor * torque, color=colour, linestyle=dash)
     (loop,) = axes.plot(RPM * result.speed, unit.factor * result.torque, color=COLOURS[0])
     legend.add(translate(_("operating points over the cycle")), loop)
-    mean = float(np.sqrt(np.trapezoid(result.speed**2, result.time) / np.ptp(result.time)))
+    mean = float(np.sqrt(mean_over(result.time, result.speed**2)))
     (point,) = axes.plot([RPM * mean], [unit.factor * result.rms], "o", color=COLOURS[3], linestyle="none")
     legend.add(
         translate(_("RMS: {torque} at {speed} rpm", torque=unit.text(result.rms), speed=f"{RPM * mean:.4g}")), point
