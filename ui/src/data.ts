@@ -186,6 +186,8 @@ export interface ModelData {
     count: number;
     closed: boolean;
     period: number | null;
+    /** Whether the time goes on evenly from one position to the next, as in a run under forces. */
+    run?: boolean;
     /** What the first driver's coordinate gains in a closed cycle. */
     drift: number;
     steady: Steady | null;

@@ -23,7 +23,7 @@ export class Model {
   private found: { values: Values; rounding: number; size: number; extremes: Record<string, Extreme>; jumps: Record<number, [number, number][]> } | null = null;
   original: Design;
   readonly signals: Record<string, Signal>;
-  /** What curves run over: the input where it goes one way, else the time; with the end of a closed cycle. */
+  /** What curves run over: the input where it goes one way in a prescribed motion, else the time; with the end of a closed cycle. */
   readonly axis: { x: Float64Array; kind: "angle" | "length" | "time" };
   values: Values;
   locked = new Set<string>();
@@ -33,7 +33,7 @@ export class Model {
     this.solver = new Solver(data, code);
     const { inputs } = this.solver, { time } = data.positions, way = Math.sign(inputs[1] - inputs[0]);
     const forward = inputs.every((q, i) => i === 0 || Math.sign(q - inputs[i - 1]) === way);
-    this.axis = forward || time === null
+    this.axis = (forward && !data.positions.run) || time === null
       ? { x: inputs, kind: data.positions.inputs[0]?.turns ?? true ? "angle" : "length" }
       : { x: floats(time), kind: "time" };
     const { x } = this.axis;

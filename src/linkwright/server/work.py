@@ -175,7 +175,7 @@ class Work:
 
     def _actuators(self, asked: Plain) -> Plain:
         """What acts in motion under forces, as forms."""
-        from linkwright.server.running import forms
+        from linkwright.server.run_forms import forms
 
         return forms(language_of(asked))
 

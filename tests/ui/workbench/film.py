@@ -231,6 +231,32 @@ def zoomed(film: Film) -> None:
         film.shot(of, "half")
 
 
+#: What a key of a motor is called.
+LABEL = """async key => (await desk.ask('actuators')).kinds.find(({kind}) => kind === 'dc')
+    .fields.find((each) => each.key === key).label"""
+
+
+def run(film: Film) -> None:
+    """A motor and a brake by their forms, a run, the moment of an event."""
+    for look in ({}, {"dark": True}, {"zh": True}, {"size": PHONE, "touch": True}):
+        mark = "-".join(look) or "light"
+        with film.hand("jaw_crusher_sixbar", **look) as of:
+            of.tab.evaluate("() => { bench.dock.value = 'run'; }")
+            if "touch" in look:
+                of.tab.locator(".drawer-grip").click()
+            of.labelled("studio.dock.add_actuator").select_option("dc")
+            film.shot(of, f"motor-{mark}")
+            for key, value in (("stall_torque", "40 N·m"), ("no_load_speed", "900 rpm")):
+                of.tab.locator(".running label", has_text=of.tab.evaluate(LABEL, key)).locator("input").fill(value)
+            of.button("studio.dock.add").click()
+            of.settle()
+            of.button("studio.dock.begin_run").click()
+            of.tab.wait_for_function("() => desk.running.value")
+            of.tab.locator(".run-course li button").last.click()
+            of.tab.locator(".run-element summary").first.click()
+            film.shot(of, f"ran-{mark}")
+
+
 SCENES: dict[str, Callable[[Film], None]] = {
     "states": states,
     "torque": torque_in_a_minute,
@@ -238,6 +264,7 @@ SCENES: dict[str, Callable[[Film], None]] = {
     "press": press,
     "keyboard": keyboard,
     "touch": touch,
+    "run": run,
     "zoomed": zoomed,
 }
 

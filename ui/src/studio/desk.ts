@@ -128,6 +128,8 @@ export interface Ran {
   candidates: never[];
   model?: ModelData;
   summary?: string[][];
+  /** That its drive could not start it or move it on. */
+  stalled?: string;
   events?: string[][];
   times?: number[];
   end?: number;
@@ -159,6 +161,8 @@ export class Desk {
   readonly sought = signal<Sought | null>(null);
   /** Whether the machine on the sheet moves as in a run under forces. */
   readonly running = signal(false);
+  /** The pace before a run was shown. */
+  private usualPace = 1;
   private readonly window = crypto.randomUUID();
   private readonly token = new URLSearchParams(location.search).get("token") ?? "";
   readonly history = new History<string>(() => this.text.value, (text) => this.put(text, 0));
@@ -416,6 +420,7 @@ export class Desk {
     if (old) inherit(session, old);
     session.ended = () => void this.adopt(session);
     this.session.value = session;
+    if (this.running.value) this.page.pace.value = this.usualPace;
     this.running.value = false;
     this.page.sessions.splice(0, Infinity, ...(this.session.value ? [this.session.value] : []));
   }
@@ -465,9 +470,10 @@ export class Desk {
     if (ran?.kind !== "run" || !ran.model || text !== this.text.value) return;
     this.session.value = new Session(ran.model, await code(ran.model), 0);
     this.page.sessions.splice(0, Infinity, this.session.value);
+    if (!this.running.value) this.usualPace = this.page.pace.value;
     this.running.value = true;
     this.page.phase.value = 0;
-    this.page.pace.value = 1;
+    [this.page.paced, this.page.pace.value] = [true, 1];
   }
 
   /** Writes dimensions (SI) into the text as it is then; false where it does not admit them. */

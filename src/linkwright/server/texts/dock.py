@@ -21,6 +21,10 @@ DOCK: dict[str, Message] = SYNTHESIS | {
         "time."
     ),
     "dock.run_over": _("The machine was changed since; let it run again to see how it moves now."),
+    "dock.further": _("Further details"),
+    "dock.moment": _("Time of the run: type one to go there"),
+    "dock.no_moment": _("{text} is no time; write it as 1.5 s."),
+    "dock.after_run": _("The run is over before {text}."),
     "dock.back_to_driver": _("Show the prescribed motion again"),
     "dock.sweep": pgettext("dock", "Sweep"),
     "dock.synthesis": pgettext("dock", "Synthesis"),

@@ -69,7 +69,7 @@ export function Progress({ bench, kinds }: { bench: Bench; kinds: string[] }) {
 function Candidates({ bench }: { bench: Bench }) {
   const { desk, say } = bench, sought = desk.sought.value, target = bench.target.value;
   useEffect(() => () => foresee(bench, null), []);
-  if (!sought || sought.kind === "optimum") return <p class="no-curves">{say("dock.no_candidates")}</p>;
+  if (!sought || sought.kind === "optimum" || sought.kind === "run") return <p class="no-curves">{say("dock.no_candidates")}</p>;
   const goal: Vec[] = sought.kind === "curve" && target ? [...target.points, ...(target.closed ? [target.points[0]] : [])] : [];
   return (
     <div class="candidates" role="region" aria-label={say("dock.synthesis")}>

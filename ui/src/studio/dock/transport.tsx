@@ -9,19 +9,13 @@ import { digits, quantity } from "../../words";
 import type { Bench } from "../bench";
 import type { Gap } from "../outline";
 import { Icon } from "../frame/icons";
-import { course, limits, outside, pace, phaseOf, phases, type Stretch, ticks, ticksOf, typed } from "./timeline";
+import { axisOf, shown, tick } from "./axis";
+import { limits, outside, pace, phaseOf, phases, type Stretch, ticks, typed } from "./timeline";
 
 const SPEEDS = [0.01, 0.05, 0.1, 0.25, 0.5, 1, 2];
 // Seconds of a cycle that the eye can follow: the speed that a machine begins with; rest before solving is shown, ms.
 const LOOKED = 1.2, PATIENCE = 300, HALF = Math.PI, DEGREE = Math.PI / 180;
 const KEYS: Record<string, number> = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -10, PageUp: 10 };
-
-const neat = (x: number) => (Math.abs(x) < 5e-10 ? 0 : x);
-const angle = (x: number) => `${neat(x / DEGREE).toFixed(1).replace("-", "−")}°`;
-
-/** A coordinate of the input as it is read. */
-const shown = (x: number, turns: boolean, size: number) => (turns ? angle(x) : quantity(neat(x), "length", size));
-const tick = (x: number, turns: boolean, size: number) => (turns ? `${String(Math.round(10 * neat(x / DEGREE)) / 10).replace("-", "−")}°` : quantity(neat(x), "length", size, 3));
 
 export function TimeLine({ bench }: { bench: Bench }) {
   const session = bench.session.value, gap = bench.gap.value, moves = session && session.data.positions.count > 1;
@@ -135,14 +129,14 @@ function Track({ labels, pieces, marks, children, ...rest }: {
 }
 
 function Transport({ bench, session }: { bench: Bench; session: Session }) {
-  const { page } = bench, { model, data } = session, turns = data.positions.inputs[0]?.turns ?? true;
+  const { page } = bench, { data } = session, run = data.positions.run === true;
   void [session.calm.value, page.language.value];
-  const [values] = useState(() => course(session)), stuck = bench.gap.value?.possible.length ? bench.gap.value : null, range = stuck && rangeOf(stuck), size = Math.max(...values.map(Math.abs)) || 1;
+  const [axis] = useState(() => axisOf(session)), { values, turns } = axis, stuck = bench.gap.value?.possible.length ? bench.gap.value : null, range = stuck && rangeOf(stuck);
   const thumb = useRef<HTMLDivElement>(null), field = useRef<HTMLInputElement>(null), name = data.positions.inputs[0]?.name ?? "";
   useLayoutEffect(() => effect(() => {
-    const i = page.index(session), share = page.phase.value, text = shown(model.solver.inputs[i], turns, size);
+    const i = page.index(session), share = page.phase.value, text = axis.shown(values[i]);
     // Moved by its way, which is as wide as the track: nothing is laid out anew.
-    thumb.current!.style.transform = `translateX(${(100 * (range ? range.share(model.solver.inputs[i]) : share)).toFixed(3)}%)`;
+    thumb.current!.style.transform = `translateX(${(100 * (range ? range.share(values[i]) : share)).toFixed(3)}%)`;
     const slider = thumb.current!.parentElement!;
     put(slider, "aria-valuenow", share.toFixed(4));
     put(slider, "aria-valuetext", text);
@@ -176,26 +170,26 @@ function Transport({ bench, session }: { bench: Bench; session: Session }) {
     go(data.positions.closed && step ? to - Math.floor(to) : to);
   };
   const type = () => {
-    const value = typed(field.current!.value, turns), phase = value === null ? null : phaseOf(values, value, turns, page.phase.value);
+    const value = axis.typed(field.current!.value), phase = value === null ? null : phaseOf(values, value, turns, page.phase.value);
     if (phase === null) {
-      page.note.value = bench.say(value === null ? "dock.no_input" : "dock.not_reached", { text: field.current!.value });
-      field.current!.value = shown(model.solver.inputs[page.index(session)], turns, size);
+      page.note.value = bench.say(value === null ? axis.says.wrong : axis.says.never, { text: field.current!.value });
+      field.current!.value = axis.shown(values[page.index(session)]);
     } else go(phase);
   };
-  const acts = phases(session).flatMap(({ load, stretches }) => stretches.map(({ from, to }) => ({ from, to, style: "acts", name: bench.say("dock.acts", { name: load }) })));
-  const ends = limits(session).map(({ share, name: output, max }) => ({ share, text: bench.say(max ? "dock.max" : "dock.min", { name: output }) }));
-  const shownOn = stuck && range ? partsOf(bench, stuck, range) : { labels: ticksOf(values, turns).map(({ share, value }) => ({ share, text: tick(value, turns, size) })), pieces: acts, marks: ends };
-  const playing = page.playing.value;
+  const acts = run ? [] : phases(session).flatMap(({ load, stretches }) => stretches.map(({ from, to }) => ({ from, to, style: "acts", name: bench.say("dock.acts", { name: load }) })));
+  const ends = run ? [] : limits(session).map(({ share, name: output, max }) => ({ share, text: bench.say(max ? "dock.max" : "dock.min", { name: output }) }));
+  const shownOn = stuck && range ? partsOf(bench, stuck, range) : { labels: axis.labels, pieces: acts, marks: ends };
+  const playing = page.playing.value, label = bench.say(axis.says.label, { name });
   return (
     <>
       <button class="play" aria-label={page.say(playing ? "pause" : "play")} data-tip={page.say(playing ? "pause" : "play")} data-keys="Space" onClick={() => page.play(!playing)}><Icon name={playing ? "pause" : "play"} /></button>
       <span class="at-box"><input
-        ref={field} class="at" spellcheck={false} autocomplete="off" aria-label={bench.say("dock.input", { name })} data-tip={bench.say("dock.input", { name })}
+        ref={field} class="at" spellcheck={false} autocomplete="off" aria-label={label} data-tip={label}
         onFocus={(event) => { page.play(false); event.currentTarget.select(); }} onChange={type}
         onKeyDown={(event) => {
           if (event.key === "Enter") event.currentTarget.blur();
           if (event.key === "Escape") {
-            event.currentTarget.value = shown(model.solver.inputs[page.index(session)], turns, size);
+            event.currentTarget.value = axis.shown(values[page.index(session)]);
             event.currentTarget.blur();
           }
           event.stopPropagation();
@@ -208,7 +202,7 @@ function Transport({ bench, session }: { bench: Bench; session: Session }) {
       >
         <div class="thumb-way" ref={thumb}><div class="thumb" /></div>
       </Track>
-      <Cycle bench={bench} />
+      {!run && <Cycle bench={bench} />}
       <Speed bench={bench} session={session} />
     </>
   );

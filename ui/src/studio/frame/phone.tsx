@@ -77,7 +77,7 @@ export function ToolSheet({ bench }: { bench: Bench }) {
 
 type Part = Tab | DockName;
 /** What the drawer holds: what is looked at most comes first. */
-const PARTS: Part[] = ["inspect", "numbers", "findings", "curves", "structure", "text", "sweep", "synthesis", "optimise", "compare"];
+const PARTS: Part[] = ["inspect", "numbers", "findings", "curves", "run", "structure", "text", "sweep", "synthesis", "optimise", "compare"];
 const HEIGHTS = ["handle", "half", "full"] as const;
 const isTab = (part: Part): part is Tab => (TABS as readonly string[]).includes(part);
 /** How far the handle is dragged until the drawer takes its next height, px. */
