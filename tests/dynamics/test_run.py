@@ -116,3 +116,45 @@ run: {{until: rest}}
     assert forces.input_torque[moves] == pytest.approx(expected[moves], rel=1e-10, abs=1e-8)
     assert run.events[-1].kind == "rest"
     assert "held" in [str(each)[:4] for each in run.events]
+
+
+def test_a_load_of_a_working_stroke_holds_a_press_that_is_too_weak() -> None:
+    """A slide of 60 kg falls against a force that grows over its stroke: it stops where both have done the same work,
+    and stays there, as nothing pushes it up but on the way down."""
+    from scipy.integrate import quad
+    from scipy.optimize import brentq
+
+    text = """
+format: 1
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 0.1 m}
+  rod: {points: [A, B], length: 0.45 m}
+  slide: {points: [B], mass: 60 kg}
+joints:
+  guide: {kind: prismatic, guide: frame, through: O, direction: -90 deg, block: slide, at: B}
+assembly: {B: forward}
+driver: {turn: crank, about: O, speed: 170 rpm, start: 95 deg}
+gravity: [0, -9.81 m/s²]
+loads:
+  pressing:
+    {kind: force, on: slide, at: B, direction: 90 deg, ramp: [0 N, 10 kN], phase: {of: B.y, from: max, to: min}}
+run: {until: rest}
+"""
+    run = lw.run(lw.loads(text))
+
+    def gained(end: float) -> float:
+        def slope(q: float) -> float:
+            way = 0.1 * math.cos(q) - 0.005 * math.sin(2.0 * q) / math.sqrt(0.45**2 - 0.01 * math.cos(q) ** 2)
+            return (10_000.0 * (q - 0.5 * math.pi) / math.pi - 60.0 * 9.81) * way
+
+        return float(quad(slope, math.radians(95.0), end, epsabs=1e-13)[0])
+
+    expected = brentq(gained, math.radians(101.0), math.radians(150.0), xtol=1e-13)
+    assert run.end_state["driver"] == pytest.approx((expected, 0.0), abs=1e-8)
+    assert [each.name for each in run.events if each.kind == "sticks"] == ["pressing"]
+
+
+def test_a_machine_that_forces_hold_from_the_beginning_is_at_rest() -> None:
+    run = lw.run(block("10 deg", ", friction: 0.3"), until="rest")
+    assert (run.end, run.events[-1].kind) == (0.0, "rest")

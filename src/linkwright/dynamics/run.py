@@ -299,8 +299,9 @@ class _Course:
         note: Message | None = None
         try:
             self._first_holding()
-            while self.t < self.end.time and self._piece():
-                pass
+            going = not self._rests()
+            while going and self.t < self.end.time:
+                going = self._piece()
         except KeyboardInterrupt:
             note = _("interrupted at {time:.6g} s", code="dynamics.interrupted", time=self.t)
         if self.end.until == "steady" and self.happened and self.happened[-1].kind == "rest":
@@ -474,10 +475,16 @@ class _Course:
                 self._note(kind, ", ".join(names))
         if "singular" in kinds:
             self._go_over()
-        if self.end.until and self._resting():
-            self._note("rest", "")
-            self.pieces.append(Piece.resting(self.system, self.t, self.y))
+        return not self._rests()
+
+    def _rests(self) -> bool:
+        """Whether a run that waits for that has come to rest."""
+        if not self.end.until or not self._resting():
             return False
+        if not self.pieces and self.system.holding.stick:
+            self._note("sticks", ", ".join(dict.fromkeys(self._owners(self.system.holding))))
+        self._note("rest", "")
+        self.pieces.append(Piece.resting(self.system, self.t, self.y))
         return True
 
     def _go_over(self) -> None:

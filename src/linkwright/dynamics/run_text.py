@@ -29,11 +29,14 @@ class RunText(Tabular):
 
     def __init__(self, run: Run, steps: int = STEPS) -> None:
         if run.end <= 0.0:
+            held = [each.name for each in run.events if each.kind == "sticks"]
             raise RequestError(
                 _(
-                    "{name!r} did not run at all, so there is nothing to show",
+                    "{name!r} stays at rest where it begins: {held} holds it; begin with a speed, at another "
+                    "position, or give it a stronger drive",
                     code="dynamics.nothing_ran",
                     name=run.mechanism.name,
+                    held=", ".join(held) or _("something"),
                 )
             )
         self.run = run

@@ -17,6 +17,7 @@ from linkwright.dynamics.integration import Piece
 from linkwright.dynamics.site import near_name
 from linkwright.dynamics.stops import contact_name
 from linkwright.dynamics.switches import switch_name
+from linkwright.dynamics.system import Group
 from linkwright.errors import RequestError
 from linkwright.formula.trace import Scalar
 from linkwright.kinematics.positions import Positions
@@ -144,11 +145,7 @@ class Part:
         found = {"time": self.time}
         for name, (q, w, second) in self._course.items():
             found |= {f"q:{name}": q, f"w:{name}": w, Input("second", name).name: second}
-        sides = holding.sides.copy()
-        for group in holding.stick:
-            for index, sign in group:
-                sides[index] = -sign
-        found |= self._switches(sides)
+        found |= self._switches(self._sides())
         _, held, chains = self._found
         for row, number in enumerate(holding.touch):
             found[contact_name(self.system.stops[number])] = held[len(holding.stick) + row]
@@ -159,6 +156,13 @@ class Part:
             found[name] = np.array([self._carried[k].get(name, 0.0) for k in self.piece.steps(self.time)])
         return found
 
+    def _sides(self, above: Group = ()) -> Floats:
+        """The sides of surfaces where what sticks is below, but for one group."""
+        system, stick = self.system, self.piece.holding.stick
+        system.hold(self.piece.holding)
+        sides = system.below(stick, above)
+        return system.on(float(self.time[0]), self.states[:, 0], sides)[1] if stick else sides
+
     def _switches(self, sides: Floats) -> dict[str, Floats]:
         found = {}
         for surface, above in zip(self.system.surfaces, sides.tolist(), strict=True):
@@ -168,18 +172,19 @@ class Part:
 
     def rows(self, names: Sequence[str], *, forces: bool) -> Floats:
         """As :meth:`Samples.rows`: forces where something sticks lie between those of slipping either way."""
-        known = [k for k, name in enumerate(names) if not self.equation.replaced or self._known(name)]
+        known = [k for k, name in enumerate(names) if not self.equation.replaced or self._known(name, forces)]
         program = self.equation.row_program([names[k] for k in known], forces=forces)
         found = np.array([self._missing(name) for name in names]).reshape(len(names), -1)
         found[known] = self._between(lambda given: self.equation.run(program, given, len(given["time"])))
         return found
 
-    def _known(self, name: str) -> bool:
+    def _known(self, name: str, forces: bool) -> bool:
         """Whether its coordinates have a row: efforts of drivers, and what groups tell, are those of a structure."""
         if name.startswith(TURNED):
             return self.equation.solver.motion.angles.follows(Output.of_row(name).owner)
+        value = self.equation.forces.programs.value if forces else self.equation.solver.outputs.value
         try:
-            self.equation.forces.programs.value(name)
+            value(name)
         except (KeyError, RequestError):
             return False
         return True
@@ -212,10 +217,6 @@ class Part:
         found = self._across(evaluate, self.given)
         base = found.copy()
         for row, group in enumerate(self.piece.holding.stick):
-            sides = self.piece.holding.sides.copy()
-            for each in self.piece.holding.stick:
-                for index, sign in each:
-                    sides[index] = sign if each is group else -sign
-            other = self._across(evaluate, self.given | self._switches(sides))
+            other = self._across(evaluate, self.given | self._switches(self._sides(group)))
             found = found + self._found[1][row] * (other - base)
         return found

@@ -37,12 +37,13 @@ class Surface:
     """Where comparisons go over together: the switches by number, with 1 for those that hold above, -1 below.
 
     ``by_rate``: its gap goes by rates, so that forces decide on which side it goes on; ``owners``: loads and joints
-    whose forces switch there.
+    whose forces switch there; ``follows``: its gap goes by the sides of others, so that it jumps with them.
     """
 
     members: tuple[tuple[int, float], ...]
     by_rate: bool
     owners: tuple[str, ...]
+    follows: bool = False
 
     @property
     def number(self) -> int:
@@ -77,6 +78,7 @@ class System:
         self.equation = equation = stretch.description.equation
         self.free, self.stops = equation.free, list(equation.mechanism.stops)
         self.surfaces = surfaces_of(equation)
+        self.following = [k for k, each in enumerate(self.surfaces) if each.follows]
         names = [*(f"a:{name}" for name in self.free), "power"]
         carried = list(equation.states)
         names += [f"next:{name}" for name in carried]
@@ -250,25 +252,40 @@ class System:
         held: Floats = np.asarray(np.linalg.lstsq(gains, -first, rcond=None)[0], dtype=np.float64)
         return np.asarray(base + held @ turns), held
 
+    def on(self, t: float, y: Floats, sides: Floats) -> tuple[Floats, Floats]:
+        """Outputs where surfaces are on some sides, and these; phases of loads, say, go by the sense of the motion,
+        and are where that brings them."""
+        found = sides.copy()
+        self._set_sides(found)
+        out = self.evaluate(self.full, t, y).copy()
+        for _round in self.following:
+            moved = [k for k in self.following if self.gaps(out)[k] * found[k] < 0.0]
+            if not moved:
+                break
+            found[moved] *= -1.0
+            self._set_sides(found)
+            out = self.evaluate(self.full, t, y).copy()
+        return out, found
+
+    def below(self, groups: Sequence[Group], above: Group = ()) -> Floats:
+        """The sides where groups are below, but for one that is above."""
+        sides = self.holding.sides.copy()
+        for group in groups:
+            for index, sign in group:
+                sides[index] = sign if group is above else -sign
+        return sides
+
     def _answers(
         self, t: float, y: Floats, stick: Sequence[Group], touch: Sequence[int]
     ) -> tuple[Floats, Floats, Floats, Floats]:
         """Accelerations and power (n + 1,) with all that may stick on the side below and no force at stops; then the
         rates (k,) of what must stay zero, what unit shares change of them (k, k), and of the former (k, n + 1)."""
-        n, sides = len(self.free), self.holding.sides.copy()
-        for group in stick:
-            for index, sign in group:
-                sides[index] = -sign
-        self._set_sides(sides)
-        out = self.evaluate(self.full, t, y).copy()
+        n = len(self.free)
+        out, sides = self.on(t, y, self.below(stick))
         base = out[: n + 1]
         changes, rows, first = [], [], []
         for group in stick:
-            other = sides.copy()
-            for index, sign in group:
-                other[index] = sign
-            self._set_sides(other)
-            changes.append(self.evaluate(self.full, t, y)[: n + 1] - base)
+            changes.append(self.on(t, y, self.below(stick, group))[0][: n + 1] - base)
             index, sign = group[0]
             surface = self.surfaces[index]
             rows.append(surface.members[0][1] * sign * self.gap_by(out, surface.number))
@@ -338,11 +355,15 @@ class System:
         for k, group in enumerate(groups):
             ways[k] = next((int(way * sign) for index, sign in group if (way := (slips or {}).get(index))), ways[k])
         for each in (tuple(ways), *others):
-            self.hold(self._chosen(holding, groups, touching, each))
+            self._choose(t, y, self._chosen(holding, groups, touching, each))
             if self._consistent(t, y, groups, each):
                 return self.holding
-        self.hold(self._chosen(holding, groups, touching, tuple(ways)))
+        self._choose(t, y, self._chosen(holding, groups, touching, tuple(ways)))
         return self.holding
+
+    def _choose(self, t: float, y: Floats, holding: Holding) -> None:
+        """Holds it, with what follows from its sides."""
+        self.hold(Holding(self.on(t, y, holding.sides)[1], holding.stick, holding.touch))
 
     @staticmethod
     def _chosen(start: Holding, groups: Sequence[Group], touching: Sequence[int], ways: tuple[int, ...]) -> Holding:
@@ -409,8 +430,7 @@ class System:
         values = []
         for side in (-1.0, 1.0):
             sides[index] = side
-            self._set_sides(sides)
-            values.append(self.evaluate(self.full, t, y)[:n].copy())
+            values.append(self.on(t, y, sides)[0][:n])
         self._set_sides(self.holding.sides)
         return float(np.abs(values[1] - values[0]).max()), float(np.abs(values).max())
 
@@ -435,7 +455,9 @@ def surfaces_of(equation: EquationOfMotion) -> list[Surface]:
     for members in found.values():
         gap = equation.program([gap_name(members[0][0])])
         own = tuple(dict.fromkeys(owner for number, _sign in members for owner in owners[number]))
-        surfaces.append(Surface(tuple(members), not rates.isdisjoint(gap.positions), own))
+        by_rate = not rates.isdisjoint(gap.positions)
+        follows = not by_rate and not set(equation.switches.names).isdisjoint(gap.positions)
+        surfaces.append(Surface(tuple(members), by_rate, own, follows))
     return surfaces
 
 
