@@ -101,7 +101,7 @@ def draw(
         dimensions: links (``frame`` among them) with the lengths and angles that place their points, or pairs of
             points with their distance; True for all links.
         centres: mark the mass centres.
-        inputs: show by arrows what is driven and which way.
+        inputs: show by arrows what is driven and which way, and actuators and end stops by their symbols.
         labels: names of points, links and loads; ``"points"``: of points only. Vectors always have theirs.
         size: longer side in pixels; default natural size.
         diagonal: of the machine, in units of which letters have 12: smaller for a picture that is shown small.

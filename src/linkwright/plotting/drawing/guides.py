@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -215,8 +215,8 @@ def sense(machine: DrawnMechanism, driver: Driver) -> int:
 def _turn(machine: DrawnMechanism, driver: Driver, index: int) -> Part:
     base = driver.relative_to
     at = machine.local(base, driver.joint)
-    turn = _turned(machine.placed[base], index)
-    middle = _free_angle(machine, driver.joint, index) - turn
+    turn = turned(machine.placed[base], index)
+    middle = free_angle(machine, driver.joint, index) - turn
     on_block = any(
         driver.joint == j.at and j.block in machine.pins[driver.joint].links for j in machine.guides.values()
     )
@@ -241,14 +241,18 @@ def _slide(machine: DrawnMechanism, driver: Driver, index: int) -> Part:
     return Part("marks", carrier, SYMBOLS["slide_arrow"](at=place, along=forward, both=way == 0))
 
 
-def _free_angle(machine: DrawnMechanism, pin: str, index: int) -> float:
-    """The direction on the paper in which an arc about a pin is farthest from the links and the support."""
+def free_angle(machine: DrawnMechanism, pin: str, index: int, used: Sequence[float] = ()) -> float:
+    """The direction on the paper in which an arc about a pin is farthest from the links, the support and directions
+    that are ``used``."""
     joint = machine.pins[pin]
     taken = [
-        math.atan2(way[1], way[0]) + _turned(machine.placed[link], index)
-        for link in joint.links
-        if link != "frame"
-        for way in machine.directions(link, pin)
+        *used,
+        *(
+            math.atan2(way[1], way[0]) + turned(machine.placed[link], index)
+            for link in joint.links
+            if link != "frame"
+            for way in machine.directions(link, pin)
+        ),
     ]
     if "frame" in joint.links:
         x, y = support_direction(machine, pin, joint)
@@ -260,6 +264,7 @@ def _free_angle(machine: DrawnMechanism, pin: str, index: int) -> float:
     return float(angles[int(np.argmax(gaps.min(axis=1)))])
 
 
-def _turned(placement: Placement, index: int) -> float:
+def turned(placement: Placement, index: int) -> float:
+    """How far a link's piece of paper is turned at a position, clockwise, rad."""
     c, s = placement.direction[index]
     return -math.atan2(s, c)

@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from linkwright.actuators.base import AlongLine
 from linkwright.applied_loads.base import LinkPoint, Load
 from linkwright.joints.base import JointName
 from linkwright.pictures.labels import Label
 from linkwright.pictures.picture import SvgNode, Vec
 from linkwright.pictures.symbols.base import EMPTY, SYMBOLS, Shape, joined
 from linkwright.pictures.symbols.machine import HEIGHT, LENGTH
+from linkwright.plotting.drawing.cylinders import linear
 from linkwright.plotting.drawing.guides import clear_shift, is_cylinder
 from linkwright.plotting.drawing.machine import DrawnMechanism, Press, Push, Turn, mark_of
 from linkwright.plotting.drawing.moving import moving_lines
@@ -21,8 +23,18 @@ GAP, BLOCK_GAP = 7.0, 19.0
 
 
 def load_marks(machine: DrawnMechanism, index: int, *, forces: bool = True) -> Shape:
-    """The symbols of all loads at one position, on the paper; ``forces``: forces and torques among them."""
-    return joined(mark(machine, load, index, forces) for load in machine.motion.mechanism.loads.values())
+    """The symbols of all loads at one position, on the paper, and of actuators along a line; ``forces``: forces and
+    torques among them."""
+    loads = [mark(machine, load, index, forces) for load in machine.motion.mechanism.loads.values()]
+    return joined(
+        [*loads, *(linear(machine, each, index) + anchors(machine, each, index) for each in _linear(machine))]
+    )
+
+
+def _linear(machine: DrawnMechanism) -> list[AlongLine]:
+    """The actuators along a line."""
+    found = (each for each in machine.motion.mechanism.actuators.values() if isinstance(each, AlongLine))
+    return [each for each in found if each.between is not None or each.along is not None]
 
 
 def mark(machine: DrawnMechanism, load: Load, index: int, forces: bool = True) -> Shape:
@@ -138,13 +150,17 @@ def pressing(machine: DrawnMechanism, press: Press, at: Vec, along: Vec) -> Shap
 
 
 def moving_springs(scene: Scene, run: Sequence[int], seconds: float) -> list[SvgNode]:
-    """Springs and dampers that follow their ends over the frames."""
+    """Springs, dampers and cylinders that follow their ends over the frames."""
     found: list[SvgNode] = []
     for load in scene.machine.motion.mechanism.loads.values():
         if mark_of(load, scene.machine.motion, run[0]) is not None:
             continue
         shapes = [_held(scene.machine, load, index).ink for index in run]
         found += anchors(scene.machine, load, run[0]).elements
+        found += [moving_lines("lw-spring", lines, seconds) for lines in zip(*shapes, strict=True)]
+    for each in _linear(scene.machine):
+        shapes = [linear(scene.machine, each, index).ink for index in run]
+        found += anchors(scene.machine, each, run[0]).elements
         found += [moving_lines("lw-spring", lines, seconds) for lines in zip(*shapes, strict=True)]
     return found
 

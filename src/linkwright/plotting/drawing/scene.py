@@ -22,6 +22,7 @@ from linkwright.pictures.labels import Label
 from linkwright.pictures.picture import Circle, Line, SvgNode, Vec
 from linkwright.pictures.svg import group, number
 from linkwright.pictures.symbols.base import LINE, SYMBOLS, points, vec
+from linkwright.plotting.drawing.actuators import actuators, flywheels, stops
 from linkwright.plotting.drawing.guides import guides, input_arrows, welds
 from linkwright.plotting.drawing.joint_marks import wheels
 from linkwright.plotting.drawing.machine import (
@@ -114,7 +115,8 @@ def laid_out(
     diagonal: float = DIAGONAL,
     view: View | None = None,
 ) -> Scene:
-    """The scene of a motion; arrows of the drivers stand as at the position ``index``.
+    """The scene of a motion; ``inputs``: with what drives, brakes and stops it, arrows of the drivers as at the
+    position ``index``.
 
     ``beside``: positions of other motions of the mechanism, counted on after its own; ``view``: instead of one in
     which the machine has the ``diagonal``.
@@ -123,6 +125,8 @@ def laid_out(
     machine = DrawnMechanism(motion, placed, view or fitted(motion, placed, diagonal), others)
     parts = parts_of(machine)
     if inputs:
+        parts = [part for part, _pin in flywheels(machine)] + parts
+        parts += [*(part for part, _pin in actuators(machine, index)), *stops(machine)]
         parts += input_arrows(machine, index)
     if centres:
         parts += mass_centres(machine)
