@@ -75,6 +75,8 @@ export interface Glyph {
   along?: string | number;
   svg?: string;
   shift?: number;
+  /** From the point to where it is, along and across the frame, downwards, m. */
+  off?: [number, number];
   role?: string;
   points?: string[];
   joint?: string;

@@ -44,6 +44,10 @@ export interface Lens {
   size: Vec;
 }
 
+/** Moves an element to a place, with its x axis along a direction. */
+const carry = (of: SVGElement, [u, v]: Vec, [x, y]: Vec) =>
+  put(of, "transform", `matrix(${u.toFixed(5)} ${v.toFixed(5)} ${(-v).toFixed(5)} ${u.toFixed(5)} ${x.toFixed(2)} ${y.toFixed(2)})`);
+
 export class View {
   readonly svg: SVGElement;
   private readonly layers: Record<string, SVGElement> = {};
@@ -280,10 +284,9 @@ export class View {
     const { x: left, y: top, width, height } = (made as SVGGraphicsElement).getBBox();
     const corners: Vec[] = [[left, top], [left + width, top + height], [left, top + height], [left + width, top]];
     return () => {
-      const along = this.way(glyph.along!), at = away(this.at(glyph.at!), along, glyph.shift ?? 0), [x, y] = at;
+      const along = this.way(glyph.along!), at = away(away(this.at(glyph.at!), [this.scale, 0], ...(glyph.off ?? [0, 0])), along, glyph.shift ?? 0);
       this.stroke(corners.map(([u, v]) => away(at, along, u, v)), true);
-      const turn = (Math.atan2(along[1], along[0]) * 180) / Math.PI;
-      put(made, "transform", `translate(${x.toFixed(2)} ${y.toFixed(2)}) rotate(${turn.toFixed(3)})`);
+      carry(made, along, at);
     };
   }
 
@@ -333,7 +336,7 @@ export class View {
 
   private cylinder(glyph: Glyph, rod: SVGElement, barrel: SVGElement): () => void {
     return () => {
-      const u = this.way(`d:${glyph.joint}`), at = this.at(glyph.at!), from = this.at(glyph.through!);
+      const at = this.at(glyph.at!), from = this.at(glyph.through!), u = unit(from, at);
       const back = away(at, u, -glyph.piston! * this.scale), length = glyph.barrel! * this.scale;
       put(rod, "d", line([back, at]) + line([away(back, u, 0, -5), away(back, u, 0, 5)]) + line([from, away(from, u, 8)]));
       const box: Vec[] = [[8, -7.5], [length, -7.5], [length, 7.5], [8, 7.5]];
@@ -346,8 +349,7 @@ export class View {
     const body = element("g", {}, layer), paths = styles.map((style) => element("path", { class: style }, body));
     this.settled.push(() => shape(paths));
     return () => {
-      const [u, v] = this.way(glyph.along!), [x, y] = this.at(glyph.at!);
-      put(body, "transform", `matrix(${u.toFixed(5)} ${v.toFixed(5)} ${(-v).toFixed(5)} ${u.toFixed(5)} ${x.toFixed(2)} ${y.toFixed(2)})`);
+      carry(body, this.way(glyph.along!), this.at(glyph.at!));
     };
   }
 

@@ -16,6 +16,9 @@ from typing import Any
 
 import numpy as np
 
+from linkwright.actuators.base import Actuator
+from linkwright.actuators.cylinder import Cylinder
+from linkwright.actuators.motor import Motor
 from linkwright.applied_loads.base import Load
 from linkwright.core.data import Plain
 from linkwright.core.outputs import row_name
@@ -30,6 +33,8 @@ from linkwright.kinematics.names import canonical
 from linkwright.mechanism.link import Link
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.pictures.symbols.base import PIN, SYMBOLS, Shape
+from linkwright.plotting.drawing.actuators import actuators, end_stop, flywheels, touches
+from linkwright.plotting.drawing.cylinders import lengths
 from linkwright.plotting.drawing.guides import clear_shift, ground_side, input_arrows, is_cylinder, travel, welds
 from linkwright.plotting.drawing.loads import named_points, pressing
 from linkwright.plotting.drawing.machine import DrawnMechanism, Part, Press, Turn, bodies, flat, mark_of, pins
@@ -39,9 +44,12 @@ _LENGTHS = 2
 
 def glyphs(machine: DrawnMechanism, index: int) -> list[Plain]:
     """All of a machine's drawing; arrows of the drivers stand as at the position ``index``."""
-    found = [*_Tracked(machine).all, *_links(machine), *_guides(machine)]
+    found = [*(_tied(machine, part, pin) for part, pin in flywheels(machine))]
+    found += [*_Tracked(machine).all, *_links(machine), *_guides(machine)]
     found += [*_pins(machine), *_welds(machine)]
     found += [_tied(machine, part) for part in input_arrows(machine, index)]
+    found += [*(_tied(machine, part, pin) for part, pin in actuators(machine, index)), *_stops(machine)]
+    found += [glyph for each in machine.motion.mechanism.actuators.values() for glyph in _along_line(machine, each)]
     found += [glyph for load in machine.motion.mechanism.loads.values() for glyph in _load(machine, load)]
     found += [
         _stamp("marks", f"{link.name}.@centre", 0.0, SYMBOLS["mass_centre"](), role="centre")
@@ -292,6 +300,28 @@ def _load(machine: DrawnMechanism, load: Load) -> Iterator[Plain]:
             yield _stamp("marks", pin, 0.0, SYMBOLS[load.kind]())
     elif not isinstance(mark_of(load, machine.motion, 0), Turn):
         yield {"kind": "load", "layer": "marks", "load": load.name}
+
+
+def _stops(machine: DrawnMechanism) -> Iterator[Plain]:
+    """End stops, ``off`` (m, downwards) from a point of the frame."""
+    pins = (name for name, joint in machine.pins.items() if "frame" in joint.links)
+    guides = (joint.through for joint in machine.guides.values() if joint.guide == "frame")
+    fixed = next(pins, None) or next(guides, None)
+    if fixed is None:
+        return
+    x, y = machine.motion.mechanism.link("frame").points[fixed]
+    for place, gap, toward in touches(machine):
+        off = [place[0] - x, y - place[1]]
+        yield _stamp("ground", key_of(machine, "frame", fixed), 0.0, end_stop(gap, toward), off=off)
+
+
+def _along_line(machine: DrawnMechanism, actuator: Actuator) -> Iterator[Plain]:
+    """A cylinder or linear motor between two points; lengths of its barrel and its rod, m."""
+    if not isinstance(actuator, Cylinder | Motor) or actuator.between is None:
+        return
+    barrel, rod = (each / machine.view.scale for each in lengths(machine, *actuator.between))
+    ends = [key_of(machine, each.link, each.point) for each in actuator.between]
+    yield {"kind": "cylinder", "layer": "blocks", "through": ends[0], "at": ends[1], "barrel": barrel, "piston": rod}
 
 
 def _common_pin(machine: DrawnMechanism, load: Load) -> str | None:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
+from linkwright.page.glyphs import glyphs
 from linkwright.pictures.picture import Circle
 from linkwright.pictures.symbols.actuators import AWAY, MOTOR
 from linkwright.pictures.symbols.machine import LENGTH
@@ -73,6 +74,17 @@ def test_stops_are_where_the_output_stops(scene: Scene) -> None:
     # Above 180°, counter-clockwise: below the crank that points to the left.
     assert 0.5 * (swing[:, 0].min() + swing[:, 0].max()) == pytest.approx(-0.06 * scale)
     assert swing[:, 1].min() == pytest.approx(2.0)
+
+
+def test_living_pages_have_them(scene: Scene) -> None:
+    found = glyphs(scene.machine, 0)
+    (ram,) = (each for each in found if each["kind"] == "cylinder")
+    assert (ram["through"], ram["at"]) == ("frame.H", "A")
+    # From 0.4 m to 0.6 m: the rod reaches from the longest to where the piston stays in the barrel.
+    assert ram["barrel"] + ram["piston"] > 0.6 > ram["barrel"]
+    low, swing = (each["off"] for each in found if "off" in each)
+    assert low == pytest.approx([0.0, 0.4], abs=1e-9)
+    assert swing == pytest.approx([-0.06, 0.0], abs=1e-9)
 
 
 def test_pictures_and_animations_have_them() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from linkwright.actuators.motor import Motor
 from linkwright.joints.lower_pair import SlidingJoint
 from linkwright.mechanism.stops import Stop
 from linkwright.pictures.picture import Vec
-from linkwright.pictures.symbols.base import PIN, SYMBOLS
+from linkwright.pictures.symbols.base import PIN, SYMBOLS, Shape
 from linkwright.pictures.symbols.machine import HEIGHT, LENGTH
 from linkwright.plotting.drawing.guides import direction, free_angle, ground_side, turned
 from linkwright.plotting.drawing.machine import DrawnMechanism, Part, support_direction
@@ -81,78 +82,91 @@ def _pin(machine: DrawnMechanism, link: str, against: str) -> str | None:
     return next((name for name, joint in machine.pins.items() if {link, against} <= set(joint.links)), None)
 
 
+class Touch(NamedTuple):
+    """Where an output is stopped, in frame axes (m); how far from there it is touched, and in which
+    direction it lies, on the paper."""
+
+    place: Vec
+    gap: Vec
+    toward: Vec
+
+
 def stops(machine: DrawnMechanism) -> Iterator[Part]:
     """The end stops of points, of links on the frame and of guides on it."""
-    for each in machine.motion.mechanism.stops.values():
-        found = _place(machine, each)
+    for place, gap, toward in touches(machine):
+        x, y = machine.view.local(place)
+        yield Part("ground", "frame", end_stop((x + gap[0], y + gap[1]), toward))
+
+
+def end_stop(at: Vec, toward: Vec) -> Shape:
+    """The symbol of a stop that is touched at a place."""
+    return SYMBOLS["end_stop"](at=at, toward=toward, size=7.0)
+
+
+def touches(machine: DrawnMechanism) -> Iterator[Touch]:
+    """Where the stops are that can be drawn."""
+    for stop in machine.motion.mechanism.stops.values():
+        row = machine.motion.read(stop.of)
+        if not np.isfinite(row).any():
+            continue
+        found = _touch(machine, stop, int(np.nanargmin(np.abs(row - stop.at))), 1.0 if stop.side == "above" else -1.0)
         if found is not None:
-            at, toward = found
-            yield Part("ground", "frame", SYMBOLS["end_stop"](at=at, toward=toward, size=7.0))
+            yield found
 
 
-def _place(machine: DrawnMechanism, stop: Stop) -> tuple[Vec, Vec] | None:
-    """Where a stop is touched, and in which direction it lies from there, on the paper."""
-    sign = 1.0 if stop.side == "above" else -1.0
-    row = machine.motion.read(stop.of)
-    near = int(np.nanargmin(np.abs(row - stop.at))) if np.isfinite(row).any() else None
-    if near is None:
-        return None
+def _touch(machine: DrawnMechanism, stop: Stop, near: int, sign: float) -> Touch | None:
+    """``near``: the position that comes nearest to the stop; ``sign``: of the side on which it lies."""
     match stop.of.kind:
         case "position":
             return _of_point(machine, stop, near, sign)
         case "displacement":
-            return _of_guide(machine, stop, near, float(row[near]), sign)
+            return _of_guide(machine, stop, near, sign)
         case "angle" | "turned_angle":
             return _of_link(machine, stop, sign)
     return None
 
 
-def _of_point(machine: DrawnMechanism, stop: Stop, near: int, sign: float) -> tuple[Vec, Vec]:
+def _of_point(machine: DrawnMechanism, stop: Stop, near: int, sign: float) -> Touch:
     """Across the axis along which the point is stopped, at the place that it comes nearest to."""
     x, y = machine.motion.point(stop.of.owner).position[near]
-    along = (sign, 0.0) if stop.of.component == "x" else (0.0, -sign)
-    world = (stop.at, y) if stop.of.component == "x" else (x, stop.at)
-    place = machine.view.local((float(world[0]), float(world[1])))
+    across = stop.of.component == "x"
+    place = (stop.at, float(y)) if across else (float(x), stop.at)
+    toward = (sign, 0.0) if across else (0.0, -sign)
     guides = (joint for joint in machine.guides.values() if joint.guide == "frame")
     guide = next((joint for joint in guides if joint.at == stop.of.owner.split(".")[-1]), None)
-    if guide is None:
-        return _before(place, along, PIN), along
-    return _beside(machine, guide, _before(place, along, LENGTH / 2)), along
+    gap = (PIN * toward[0], PIN * toward[1]) if guide is None else _beside(machine, guide, toward)
+    return Touch(place, gap, toward)
 
 
-def _of_guide(machine: DrawnMechanism, stop: Stop, near: int, there: float, sign: float) -> tuple[Vec, Vec] | None:
+def _of_guide(machine: DrawnMechanism, stop: Stop, near: int, sign: float) -> Touch | None:
     joint = machine.guides.get(stop.of.owner)
     if joint is None or joint.guide != "frame":
         return None
-    along = (sign * math.cos(joint.direction), -sign * math.sin(joint.direction))
-    x, y = machine.paper(joint.block, joint.at, near)
-    way = sign * (stop.at - there) * machine.view.scale
-    return _beside(machine, joint, _before((x, y), along, way + LENGTH / 2)), along
+    c, s = math.cos(joint.direction), math.sin(joint.direction)
+    left = stop.at - float(machine.motion.read(stop.of)[near])
+    point = machine.motion.mechanism.link(joint.block).points[joint.at]
+    x, y = machine.placed[joint.block].world(point)[near]
+    toward = (sign * c, -sign * s)
+    return Touch((float(x) + left * c, float(y) + left * s), _beside(machine, joint, toward), toward)
 
 
-def _of_link(machine: DrawnMechanism, stop: Stop, sign: float) -> tuple[Vec, Vec] | None:
+def _of_link(machine: DrawnMechanism, stop: Stop, sign: float) -> Touch | None:
     """Beside the place of the link where it is stopped."""
     pin = _pin(machine, stop.of.owner, "frame")
-    if pin is None:
+    ways = [] if pin is None else machine.directions(stop.of.owner, pin)
+    if pin is None or not ways:
         return None
     here = machine.local(stop.of.owner, pin)
-    reach = max((math.dist(here, (x, y)) for x, y in machine.cloud(stop.of.owner)), default=0.0)
-    ways = machine.directions(stop.of.owner, pin)
-    if not ways:
-        return None
-    angle = math.atan2(ways[0][1], ways[0][0]) - stop.at
-    c, s, far = math.cos(angle), math.sin(angle), max(OUTWARDS * reach, min(LEAST, reach))
-    x, y = machine.local("frame", pin)
-    along = (sign * s, -sign * c)
-    return _before((x + far * c, y + far * s), along, 2.0), along
+    reach = max(math.dist(here, (x, y)) for x, y in machine.cloud(stop.of.owner))
+    angle = stop.at - math.atan2(ways[0][1], ways[0][0])
+    c, s, far = math.cos(angle), math.sin(angle), max(OUTWARDS * reach, min(LEAST, reach)) / machine.view.scale
+    x, y = machine.motion.mechanism.link("frame").points[pin]
+    toward = (-sign * s, -sign * c)
+    return Touch((x + far * c, y + far * s), (2.0 * toward[0], 2.0 * toward[1]), toward)
 
 
-def _beside(machine: DrawnMechanism, joint: SlidingJoint, at: Vec) -> Vec:
-    """Next to the ground of a guide, clear of what is pinned to the block."""
+def _beside(machine: DrawnMechanism, joint: SlidingJoint, toward: Vec) -> Vec:
+    """From a block's point to its end, next to the ground and clear of what is pinned to the block."""
     x, y = direction(machine, joint)
     off = ground_side(machine, joint) * (HEIGHT / 2 - ABOVE)
-    return at[0] - off * y, at[1] + off * x
-
-
-def _before(at: Vec, along: Vec, gap: float) -> Vec:
-    return at[0] + gap * along[0], at[1] + gap * along[1]
+    return LENGTH / 2 * toward[0] - off * y, LENGTH / 2 * toward[1] + off * x

@@ -51,13 +51,17 @@ def _between(machine: DrawnMechanism, actuator: AlongLine, index: int) -> Reach 
     if actuator.between is None:
         return None
     a, b = actuator.between
+    start, end = (machine.paper(each.link, each.point, index) for each in (a, b))
+    return Reach(start, end, *lengths(machine, a, b))
+
+
+def lengths(machine: DrawnMechanism, a: LinkPoint, b: LinkPoint) -> tuple[float, float]:
+    """Of the barrel and the rod of a cylinder between two points, on the paper, for all its positions."""
     first, second = (_everywhere(machine, each) for each in (a, b))
-    lengths = machine.view.scale * np.hypot(*(second - first).T)
-    short, longest = float(np.nanmin(lengths)), float(np.nanmax(lengths))
+    apart = machine.view.scale * np.hypot(*(second - first).T)
+    short, longest = float(np.nanmin(apart)), float(np.nanmax(apart))
     barrel = max(0.6 * short, min(0.62 * longest, 0.92 * short))
-    return Reach(
-        machine.paper(a.link, a.point, index), machine.paper(b.link, b.point, index), barrel, longest - 0.9 * barrel
-    )
+    return barrel, longest - 0.9 * barrel
 
 
 def _everywhere(machine: DrawnMechanism, point: LinkPoint) -> Floats:
