@@ -44,7 +44,7 @@ class SixbarRuns:
         text = gallery.content("watt_sixbar").decode()
         self.mechanism = lw.loads(text + _MOTOR)
         self.equation = EquationOfMotion(self.mechanism, varied=VARIED)
-        self.program: Program = self.equation.program(["a:driver", "power"])
+        self.program: Program = self.equation.program(["qdd:driver", "power"])
         nominal = np.array([self.equation.numbers.get(name, self.mechanism.dimension(name)) for name in VARIED])
         self.numbers = {**self.equation.numbers, **dict(zip(VARIED, nominal.tolist(), strict=True))}
         random = np.random.default_rng(1)
@@ -57,7 +57,7 @@ class SixbarRuns:
 
     def right_side(self, compiled: bool) -> RightSide:
         """The program on buffers."""
-        first = ("q:driver", "w:driver", "time", *VARIED)
+        first = ("q:driver", "qd:driver", "time", *VARIED)
         return RightSide(self.program, self.numbers, first=first, compiled=compiled)
 
     def motions(self, designs: Floats) -> Motions:
@@ -150,9 +150,9 @@ class Windows:
     def __init__(self, count: int) -> None:
         self.count = count
         equation = EquationOfMotion(lw.loads(windows(count)))
-        program = equation.program(["a:driver", "power"])
-        first = ("q:driver", "w:driver", "time")
-        right = RightSide(program, {**equation.numbers, "q:driver": 1.4, "w:driver": 1.0}, first=first)
+        program = equation.program(["qdd:driver", "power"])
+        first = ("q:driver", "qd:driver", "time")
+        right = RightSide(program, {**equation.numbers, "q:driver": 1.4, "qd:driver": 1.0}, first=first)
         self.call = right.call
 
     def candidate(self) -> Candidate:

@@ -46,7 +46,7 @@ def test_values_are_put_in() -> None:
 
 #: Half-width marks where a Chinese sentence goes on; between a key and its value of the file format they stay.
 HALF_WIDTH = re.compile(r"[一-鿿），。；][,;!?]|[,;?] ?[一-鿿]|[一-鿿）]:[^ 一-鿿]|\([^()]*[一-鿿][^()]*\)")
-SYNTAX = re.compile(r"\[从, 到\]|\{\{.*?\}\}|gallery:名称|\d:[一-鿿]|=值,值")
+SYNTAX = re.compile(r"\[从, 到\]|\[(?:构件\.)?点, (?:构件\.)?点\]|\{\{.*?\}\}|gallery:名称|\d:[一-鿿]|=值,值")
 
 
 def test_chinese_sentences_have_chinese_punctuation() -> None:

@@ -38,9 +38,11 @@ NOT_ONE_CRANK = {
     "dyad_prp",
     "dyad_rrr",
     "excavator",
+    "five_bar_robot",
     "gear_differential",
     "pantograph",
     "planetary_two_inputs",
+    "robot_arm",
     "wedge",
 }
 UNEVEN = {"stephenson_sixbar_triad"}

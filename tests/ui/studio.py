@@ -38,6 +38,8 @@ REQUESTS = (
     "tasks",
     "synthesis",
     "metrics",
+    "actuators",
+    "run",
     "candidates",
     "enough",
     "take",

@@ -24,6 +24,7 @@ _KINDS = {
     "Motion": _("a motion"),
     "Forces": _("the forces of a machine"),
     "SteadyRunning": _("steady running"),
+    "Run": _("a run under forces"),
     "Document": _("a document"),
     "str": _("the name of a file"),
     "PathLike": _("its path"),

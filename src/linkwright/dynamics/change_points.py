@@ -92,7 +92,7 @@ class ChangePoint:
     def _roots(self) -> RightSide:
         """The quality of one of the groups at the nodes."""
         equation = self.description.equation
-        program = equation.program([f"quality:{next(iter(self.modes))}"])
+        program = equation.program([f"closure:{next(iter(self.modes))}"])
         first = [f"q:{name}" for name in self.description.names]
         return RightSide(program, {**equation.numbers, **self.description.held}, lanes=NODES, first=first)
 
@@ -273,9 +273,9 @@ class _Surroundings:
         point.states = {each: row[:NODES] for each, row in states.items()}
         given: dict[str, Floats | float] = {**description.held, **signs, **states}
         for each, q, w in zip(description.names, self.q.tolist(), self.w.tolist(), strict=True):
-            given |= {f"q:{each}": q, f"w:{each}": w}
+            given |= {f"q:{each}": q, f"qd:{each}": w}
         given[f"q:{point.driver}"] = point.place + beyond
-        accelerations = [f"a:{each}" for each in description.equation.free]
+        accelerations = [f"qdd:{each}" for each in description.equation.free]
         rows = description.equation.evaluate(accelerations, given, len(beyond))
         off = np.abs(rows[:, :NODES] @ weights.T - rows[:, NODES:]).max() / (np.abs(rows).max() or 1.0)
         return float(off) if off == off else np.inf
@@ -300,7 +300,7 @@ def read_across(
     across[f"q:{point.driver}"] = across[f"q:{point.driver}"] - np.repeat(beyond[near], NODES) + nodes
     across |= point.signs(nodes)
     across |= {name: np.tile(row, len(near)) for name, row in point.states.items()}
-    seconds = equation.evaluate([f"a:{name}" for name in equation.free], across, len(nodes))
+    seconds = equation.evaluate([f"qdd:{name}" for name in equation.free], across, len(nodes))
     across |= {Input("second", name).name: row for name, row in zip(equation.free, seconds, strict=True)}
     weights = np.array([shares(x, point.reach) for x in beyond[near].tolist()])
     found[:, near] = np.einsum("kij,ij->ki", evaluate(across).reshape(len(found), len(near), NODES), weights)
@@ -340,7 +340,7 @@ class Bridged:
         self._next = [names.index(f"next:{name}") for name in point.states if f"next:{name}" in names]
         if self.states:
             self.lanes.x[self.states] = [point.states[name] for name in point.states if name in right.inputs]
-        direct = ("gap:", "quality:", "outcome", "next:")
+        direct = ("gap:", "closure:", "outcome", "next:")
         self.direct = np.array([k for k, name in enumerate(names) if name.startswith(direct)], dtype=np.intp)
         self.addresses = (0, 0)
         self.compiled, self.lane_count = right.compiled, None

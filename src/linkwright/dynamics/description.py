@@ -105,7 +105,7 @@ class Description:
                 f"{k}:{link}": v
                 for k, v in zip(("x", "y", "c", "s", "angle"), (place.x, place.y, e.x, e.y, turned), strict=True)
             }
-        out |= {f"slide:{name}": outputs.slide(name)[0] for name in motion.mechanism.guides}
+        out |= {f"slid:{name}": outputs.slide(name)[0] for name in motion.mechanism.guides}
         return out | {f"next:{name}": value for name, value in motion.next_states.items()}
 
     def place(self, q: Floats, w: Floats) -> Place:
@@ -122,7 +122,7 @@ class Description:
         return Place(
             {link: tuple(found[f"{k}:{link}"] for k in "xycs") for link in links},  # type: ignore[misc]
             {"frame": 0.0, **{link: found[f"angle:{link}"] for link in links}},
-            {name: found[f"slide:{name}"] for name in self.equation.mechanism.guides},
+            {name: found[f"slid:{name}"] for name in self.equation.mechanism.guides},
         )
 
     def coordinates(self, drivers: Mapping[str, Driver], q: Floats, w: Floats) -> tuple[Floats, Floats]:
@@ -130,17 +130,17 @@ class Description:
         motion = self.equation.solver.motion
         out: dict[str, Scalar] = {}
         for name, driver in drivers.items():
-            out[f"q:{name}"], out[f"w:{name}"] = coordinate_of(motion, driver)
+            out[f"q:{name}"], out[f"qd:{name}"] = coordinate_of(motion, driver)
         unknown = {name: 0.0 for name in drivers if name not in self.near}
         self.near |= unknown
         found = self._motion(out, q, w)
         for name in unknown:
             del self.near[name]
-        return np.array([found[f"q:{name}"] for name in drivers]), np.array([found[f"w:{name}"] for name in drivers])
+        return np.array([found[f"q:{name}"] for name in drivers]), np.array([found[f"qd:{name}"] for name in drivers])
 
     def qualities(self, q: Floats) -> Floats:
         """How far its groups are from singular, (groups,); 0 where one is."""
-        names = [f"quality:{group}" for group in self.equation.groups]
+        names = [f"closure:{group}" for group in self.equation.groups]
         given = {**self.held, **{f"q:{name}": each for name, each in zip(self.names, q, strict=True)}}
         return self.equation.evaluate(names, given, 1)[:, 0] if names else np.ones(1)
 

@@ -46,12 +46,12 @@ ITERATIONS = 2
 class EquationOfMotion:
     """The equation of motion of a mechanism; every driver's coordinate is free but the ``prescribed`` ones.
 
-    Its programs take positions (all of them inputs per lane): ``q:NAME``, ``w:NAME`` of every driver (rad, rad/s or
+    Its programs take positions (all of them inputs per lane): ``q:NAME``, ``qd:NAME`` of every driver (rad, rad/s or
     m, m/s), ``second:NAME`` of the prescribed ones, ``time``, ``switch:K`` (1 or 0; see ``Switches``), ``mode:GROUP``
     where ``flipping``, the chain coordinates of groups without closed form, and ``varied`` dimensions.
-    Outputs: ``a:NAME`` q'' of the free ones; ``M:A:B``, ``h:A``; ``power`` (W) of all forces, ``kinetic`` (J), whose
-    difference to the work since the start is the residual of a run; ``gap:K``; ``quality:GROUP``, 0 where a group is
-    singular; ``outcome``; ``next:STATE``.
+    Outputs: ``qdd:NAME`` q'' of the free ones; ``M:A:B``, ``h:A``; ``power`` (W) of all forces, ``kinetic`` (J),
+    whose difference to the work since the start is the residual of a run; ``gap:K``; ``closure:GROUP``, 0 where a
+    group is singular; ``outcome``; ``next:STATE``.
 
     Source: d'Alembert's principle in the inputs (Lagrange's equations); Wittenburg, Dynamics of Multibody Systems.
     """
@@ -118,7 +118,8 @@ class EquationOfMotion:
     def start(self) -> Floats:
         """Where the drivers' laws begin; of one without a law its ``start``, else its place in the drawing, rad or m,
         (drivers,)."""
-        laws = {name: self.source.drivers[name].law.own for name in self.names}
+        follows = self.source.path is not None
+        laws = {name: each.law if follows else each.law.own for name, each in self.source.drivers.items()}
         begins = {name: law.at(0.0) for name, law in laws.items() if law.prescribed or law.at(0.0) != 0.0}
         return np.array([begins.get(name, self.solver.assembly.inputs[name]) for name in self.names])
 
@@ -157,7 +158,7 @@ class EquationOfMotion:
             out |= {f"M:{name}:{other}": slope(plain, {second: 1.0}) for other, second in seconds.items()}
         if self.rubs:
             out["rubbing"] = self.forces.forces.friction_power
-        out |= {f"quality:{group}": group_quality(motion, group) for group in self.groups}
+        out |= {f"closure:{group}": group_quality(motion, group) for group in self.groups}
         out |= {f"next:{name}": value for name, value in motion.next_states.items()}
         out |= {f"stop:{name}": stop_gap(motion, stop) for name, stop in self.mechanism.stops.items()}
         for name in self.replaced:
@@ -192,7 +193,7 @@ class EquationOfMotion:
             second = self._accelerations(found, second)
         if self.rubs or fixed:
             found, _again = self._inlined(t, second)
-        out: dict[str, Scalar | bool] = {f"a:{name}": second[name] for name in self.free}
+        out: dict[str, Scalar | bool] = {f"qdd:{name}": second[name] for name in self.free}
         out |= self._energies(t, found, fixed)
         out |= {name: value for name, value in found.items() if not name.startswith("T:")}
         out |= {f"h:{name}": found[f"T:{name}"] for name in self.names} | gaps
@@ -201,15 +202,15 @@ class EquationOfMotion:
     def _rates(
         self, t: Trace, out: Mapping[str, Scalar | bool], second: Mapping[str, Scalar]
     ) -> dict[str, Scalar | bool]:
-        """Rates of gaps, ``rate:K``, and of stops, ``stop_rate:NAME``, ``stop_second:NAME``, along the motion, and
-        their derivatives by the free rates, ``by:K:NAME`` and ``stop_by:NAME:NAME``."""
-        rates = {name: t.position(f"w:{name}") for name in self.names}
+        """Rates of gaps, ``gap_rate:K``, and of stops, ``stop_rate:NAME``, ``stop_second:NAME``, along the motion,
+        and their derivatives by the free rates, ``by:K:NAME`` and ``stop_by:NAME:NAME``."""
+        rates = {name: t.position(f"qd:{name}") for name in self.names}
         along: dict[Value, Scalar] = {t.position(f"q:{name}"): rate for name, rate in rates.items()}
         along |= {rates[name]: second[name] for name in self.names} | {t.position("time"): 1.0}
         found: dict[str, Scalar | bool] = {}
         for number in range(len(self.switches.lines)):
             gap = _number(out[gap_name(number)])
-            found[f"rate:{number}"] = slope(gap, along)
+            found[f"gap_rate:{number}"] = slope(gap, along)
             found |= {f"by:{number}:{name}": slope(gap, {rates[name]: 1.0}) for name in self.free}
         for stop in self.mechanism.stops:
             rate = slope(_number(out[f"stop:{stop}"]), along)
@@ -225,7 +226,7 @@ class EquationOfMotion:
 
     def _energies(self, t: Trace, found: Mapping[str, Scalar | bool], fixed: Sequence[str]) -> dict[str, Scalar]:
         """Power of all forces, of the prescribed inputs as well, and kinetic energy."""
-        rates = [t.position(f"w:{name}") for name in self.names]
+        rates = [t.position(f"qd:{name}") for name in self.names]
         power: Scalar = 0.0
         for name, rate in zip(self.names, rates, strict=True):
             power = power - _number(found[f"S:{name}"]) * rate
@@ -248,7 +249,7 @@ class EquationOfMotion:
         """The inputs of a program of the motion's trace as values of another trace."""
         given: dict[str, Scalar] = {}
         for name in self.names:
-            course = (t.position(f"q:{name}"), t.position(f"w:{name}"), seconds[name])
+            course = (t.position(f"q:{name}"), t.position(f"qd:{name}"), seconds[name])
             given |= driven(name, self.rotary[name], course, cos, sin)
         carried = self.solver.motion.next_states
         for name in source.fields:

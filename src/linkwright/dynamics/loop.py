@@ -63,7 +63,7 @@ class Event:
 
 @dataclass(frozen=True)
 class Layout:
-    """What a loop integrates: coordinates ``q:NAME`` with ``w:NAME`` and ``a:NAME`` of the ``names``, and ``power``.
+    """What a loop integrates: ``q:NAME`` with ``qd:NAME`` and ``qdd:NAME`` of the ``names``, and ``power``.
 
     ``watched``: outputs whose largest size is found and whose square is integrated. ``inputs``: those that differ
     from motion to motion or are flipped. ``carried``: outputs that are the next values of inputs (the starts of
@@ -84,7 +84,7 @@ class Layout:
     @property
     def first_inputs(self) -> list[str]:
         """The first inputs of the program, in the order of the loop."""
-        coordinates = [f"{kind}:{name}" for kind in "qw" for name in self.names]
+        coordinates = [f"{kind}:{name}" for kind in ("q", "qd") for name in self.names]
         return [*coordinates, "time", *self.all_inputs]
 
     @property
@@ -95,7 +95,7 @@ class Layout:
     @property
     def outputs(self) -> list[str]:
         """The outputs of the program, in the order of the loop."""
-        accelerations = [f"a:{name}" for name in self.names]
+        accelerations = [f"qdd:{name}" for name in self.names]
         return [
             *accelerations,
             "power",

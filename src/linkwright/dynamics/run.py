@@ -290,7 +290,7 @@ class _Course:
         if surface.by_rate:
             return False
         out = system.evaluate(system.full, self.t, self.y)
-        rate = surface.members[0][1] * out[system.place[f"rate:{surface.number}"]]
+        rate = surface.members[0][1] * out[system.place[f"gap_rate:{surface.number}"]]
         return bool(system.holding.sides[index] * rate < 0.0)
 
     # the way --------------------------------------------------------------------------------------------
@@ -338,7 +338,7 @@ class _Course:
         gaps, holding = system.gaps(out), system.holding.copy()
         for index in indices:
             surface = system.surfaces[index]
-            rate = surface.members[0][1] * out[system.place[f"rate:{surface.number}"]]
+            rate = surface.members[0][1] * out[system.place[f"gap_rate:{surface.number}"]]
             value = gaps[index] if gaps[index] != 0.0 else rate
             holding.sides[index] = 1.0 if value >= 0.0 else -1.0
         system.hold(holding)

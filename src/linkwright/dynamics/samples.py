@@ -144,7 +144,7 @@ class Part:
         equation, holding = self.equation, self.piece.holding
         found = {"time": self.time}
         for name, (q, w, second) in self._course.items():
-            found |= {f"q:{name}": q, f"w:{name}": w, Input("second", name).name: second}
+            found |= {f"q:{name}": q, f"qd:{name}": w, Input("second", name).name: second}
         found |= self._switches(self._sides())
         _, held, chains = self._found
         for row, number in enumerate(holding.touch):

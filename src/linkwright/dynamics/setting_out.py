@@ -10,6 +10,8 @@ from typing import Literal
 import numpy as np
 
 from linkwright.core.arrays import Floats
+from linkwright.core.inputs import Input
+from linkwright.core.outputs import row_name
 from linkwright.core.quantity import shown
 from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.run import run
@@ -46,7 +48,7 @@ class SettingOut:
             states = {} if tracked is None else dict(tracked.states)
         self.states = states
         self.given = FoundStates(equation, start, (), states).given
-        self.program = equation.program([f"a:{name}" for name in self.free])
+        self.program = equation.program([f"qdd:{name}" for name in self.free])
         self.gap_program = equation.program([name.replace("switch", "gap") for name in equation.switches.names])
 
     # ways of setting out ----------------------------------------------------------------------------------
@@ -91,9 +93,9 @@ class SettingOut:
         given = dict(self.given)
         given["time"] = given["time"] + NEXT
         for name, rate in zip(self.free, way.tolist(), strict=True):
-            given[f"q:{name}"] = given[f"q:{name}"] + NEXT * (rate + given[f"w:{name}"])
-            given[f"w:{name}"] = (
-                given[f"w:{name}"] + rate * max(1.0, float(np.max(np.abs(given[f"w:{name}"])))) * 1e-3
+            given[f"q:{name}"] = given[f"q:{name}"] + NEXT * (rate + given[f"qd:{name}"])
+            given[f"qd:{name}"] = (
+                given[f"qd:{name}"] + rate * max(1.0, float(np.max(np.abs(given[f"qd:{name}"])))) * 1e-3
             )
         after = self._gaps(given, np.nan_to_num(known))
         return np.where(np.isnan(known), (after > 0.0).astype(float), known)
@@ -124,7 +126,7 @@ class SettingOut:
         found = [self.acceleration(each) for each in held]
         size = max(float(np.abs(found).max()), 1e-300)
         small = NO_ACCELERATION * max(size, 1.0)
-        still = all(not np.any(self.given[f"w:{name}"]) for name in self.free)
+        still = all(not np.any(self.given[f"qd:{name}"]) for name in self.free)
         rests = still and all((np.abs(each) <= small).all() for each in found)
         if rests or len(held) == 1:
             return [(1.0, held[0])], found[0], "rests" if rests else "moves", []
@@ -173,8 +175,8 @@ class SettingOut:
     ) -> tuple[list[tuple[float, Floats]], Floats, Outcome, list[Floats]]:
         """At rest, the friction between that of the ways: so much of each that no effort is left."""
         efforts = []
-        zero = {f"second:{name}": 0.0 for name in self.equation.names}
-        program = self.equation.row_program([f"effort:{name}" for name in self.free], forces=True)
+        zero = {Input("second", name).name: 0.0 for name in self.equation.names}
+        program = self.equation.row_program([row_name("effort", name) for name in self.free], forces=True)
         for each in held:
             efforts.append(self.equation.run(program, {**self.given, **zero, **self._named(each)}, 1)[:, 0])
         between = _between(efforts)
@@ -184,7 +186,7 @@ class SettingOut:
 
     def _ways(self, forth: Floats) -> list[Floats]:
         """Rates of the free inputs with which the mechanism may set out: every sense of every input at rest."""
-        resting = [not np.any(self.given[f"w:{name}"]) for name in self.free]
+        resting = [not np.any(self.given[f"qd:{name}"]) for name in self.free]
         senses = [(1.0, -1.0) if each else (0.0,) for each in resting]
         corners = [np.array(each) for each in product(*senses)]
         if sum(resting) < 2:

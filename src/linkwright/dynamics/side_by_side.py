@@ -104,22 +104,22 @@ class SideBySide:
         events += [Event(LEFT), Event(BEYOND, Action.NOTE)]
         inputs = [*self.varied, *self.equation.switches.names, BEGIN, TURN, SPEED]
         carried = {name: f"next:{name}" for name in self.equation.states}
-        return Layout(self.equation.free, events, [f"effort:{name}" for name in self.actuators], inputs, carried)
+        return Layout(self.equation.free, events, [f"drive:{name}" for name in self.actuators], inputs, carried)
 
     @cached_property
     def program(self) -> Program:
         """All outputs of the loop."""
         t, out = self.equation.traced
         first = self.equation.free[0]
-        q, w = t.position(f"q:{first}"), t.position(f"w:{first}")
+        q, w = t.position(f"q:{first}"), t.position(f"qd:{first}")
         more = {LEFT: t.position(TURN) - absolute(q - t.position(BEGIN)), BEYOND: w - t.position(SPEED)}
         least: Scalar = 1.0
         for group in self.equation.groups:
-            least = minimum(least, _number(out[f"quality:{group}"]))
+            least = minimum(least, _number(out[f"closure:{group}"]))
         more[SINGULAR] = least - NEARLY_SINGULAR
-        seconds = {name: _number(out[f"a:{name}"]) for name in self.equation.free}
+        seconds = {name: _number(out[f"qdd:{name}"]) for name in self.equation.free}
         efforts = self.equation.written(t, self.actuators, seconds)
-        more |= {f"effort:{name}": value for name, value in efforts.items()}
+        more |= {f"drive:{name}": value for name, value in efforts.items()}
         found = {**out, **more}
         return Program.of(t, {name: found[name] for name in self.layout.outputs})
 
@@ -150,7 +150,7 @@ class SideBySide:
 
     def _begins_singular(self, motions: Motions, inputs: Mapping[str, Floats]) -> Flags:
         """Designs that begin there."""
-        names, count = [f"quality:{group}" for group in self.equation.groups], len(motions.records)
+        names, count = [f"closure:{group}" for group in self.equation.groups], len(motions.records)
         if not names:
             return np.zeros(count, dtype=np.bool_)
         least = self.equation.evaluate(names, self._given(motions, inputs), count).min(axis=0)
@@ -205,7 +205,7 @@ class SideBySide:
         the size of the machine, under the forces at the start."""
         equation, n = self.equation, len(self.equation.free)
         ways = np.array([1.0 if equation.rotary[name] else equation.mechanism.size for name in equation.free])
-        names = [*(f"a:{name}" for name in equation.free), *(f"M:{name}:{name}" for name in equation.free)]
+        names = [*(f"qdd:{name}" for name in equation.free), *(f"M:{name}:{name}" for name in equation.free)]
         given = self._given(motions, dict(zip(self.layout.all_inputs, motions.inputs.T, strict=True)))
         found = np.abs(equation.evaluate(names, given, len(motions.records)))
         found = np.where(np.isfinite(found), found, 0.0)
@@ -219,7 +219,7 @@ class SideBySide:
         given = {**inputs, "time": motions.time}
         for place, name in enumerate(self.equation.free):
             given[f"q:{name}"] = motions.state[:, place]
-            given[f"w:{name}"] = motions.state[:, len(self.equation.free) + place]
+            given[f"qd:{name}"] = motions.state[:, len(self.equation.free) + place]
         return given
 
     def _kinetic(self, motions: Motions, inputs: Mapping[str, Floats]) -> Floats:
@@ -267,7 +267,7 @@ class SideBySide:
         rates = []
         for above in (True, False):
             self._set(surface, given, np.full(count, above))
-            gap, rate = sign * self.equation.evaluate([gap_name(number), f"rate:{number}"], given, count)
+            gap, rate = sign * self.equation.evaluate([gap_name(number), f"gap_rate:{number}"], given, count)
             rates.append(np.where(gap == 0.0, rate, gap))
         up, down = rates[0] > 0.0, rates[1] < 0.0
         self._set(surface, given, up | ~(down | np.isnan(rates[0])))  # no rate at rest: as if it did not move

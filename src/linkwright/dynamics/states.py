@@ -64,7 +64,7 @@ class FoundStates:
         """Inputs of the programs but for the switches."""
         found: dict[str, Floats | float] = {"time": self.positions.time, **self.states, **self.modes}
         for name, (q, rate, second) in self.positions.coordinates.items():
-            found |= {f"q:{name}": q, f"w:{name}": rate, Input("second", name).name: second}
+            found |= {f"q:{name}": q, f"qd:{name}": rate, Input("second", name).name: second}
         return found
 
     def rows(self, names: tuple[str, ...], *, forces: bool) -> Floats:

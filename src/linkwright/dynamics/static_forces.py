@@ -78,7 +78,7 @@ class StaticForces:
         values = found | gaps
         for other in self.free:
             along = self._by(t, other)
-            rate = Slopes({t.position(f"w:{other}"): 1.0})
+            rate = Slopes({t.position(f"qd:{other}"): 1.0})
             for name in self.free:
                 values[f"K:{name}:{other}"] = _slope(along, values[f"S:{name}"])
                 values[f"B:{name}:{other}"] = _slope(along, values[f"T:{name}"])
@@ -110,7 +110,7 @@ class StaticForces:
         if not count:
             return {}
         gaps = tuple(gap_name(number) for number in range(count))
-        rates: dict[str, Floats] = {f"w:{name}": np.full(q.shape[1], CREEP * sense) for name in self.free}
+        rates: dict[str, Floats] = {f"qd:{name}": np.full(q.shape[1], CREEP * sense) for name in self.free}
         held: dict[str, Floats] = {}
         for _again in range(PASSES):
             found = self._run(self._program(gaps), q, {**rates, **held})
@@ -185,7 +185,7 @@ class StaticForces:
     def weakest_group(self, place: Floats) -> str:
         """The group that is nearest to a singular position, at a place (freedoms,)."""
         groups = self.equation.groups
-        qualities = self.evaluate([f"quality:{name}" for name in groups], place[:, None])[:, 0]
+        qualities = self.evaluate([f"closure:{name}" for name in groups], place[:, None])[:, 0]
         return groups[int(np.argmin(qualities))]
 
     # what acts --------------------------------------------------------------------------------------------

@@ -79,19 +79,19 @@ class System:
         self.free, self.stops = equation.free, list(equation.mechanism.stops)
         self.surfaces = surfaces_of(equation)
         self.following = [k for k, each in enumerate(self.surfaces) if each.follows]
-        names = [*(f"a:{name}" for name in self.free), "power"]
+        names = [*(f"qdd:{name}" for name in self.free), "power"]
         carried = list(equation.states)
         names += [f"next:{name}" for name in carried]
         count = len(equation.switches.lines)
         more = ["kinetic", "outcome"]
-        more += [gap_name(k) for k in range(count)] + [f"rate:{k}" for k in range(count)]
+        more += [gap_name(k) for k in range(count)] + [f"gap_rate:{k}" for k in range(count)]
         more += [f"by:{k}:{name}" for k in range(count) for name in self.free]
         more += [f"{kind}:{stop}" for kind in ("stop", "stop_rate", "stop_second") for stop in self.stops]
         more += [f"stop_by:{stop}:{name}" for stop in self.stops for name in self.free]
         more += [f"M:{a}:{b}" for a in self.free for b in self.free]
-        more += [f"quality:{group}" for group in equation.groups]
+        more += [f"closure:{group}" for group in equation.groups]
         more += [f"{kind}:{name}" for kind in ("input", "input_rate") for name in equation.replaced]
-        first = [f"{kind}:{name}" for kind in ("q", "w") for name in self.free]
+        first = [f"{kind}:{name}" for kind in ("q", "qd") for name in self.free]
         self.slim, self.full = (
             stretch.side(
                 RightSide(equation.program(wanted), equation.numbers, tables=equation.tables, first=[*first, "time"])
@@ -99,7 +99,7 @@ class System:
             for wanted in (names, names + more)
         )
         self.place = {name: k for k, name in enumerate(self.full.program.output_names)}
-        self._qualities = np.array([self.place[f"quality:{group}"] for group in equation.groups], dtype=np.intp)
+        self._qualities = np.array([self.place[f"closure:{group}"] for group in equation.groups], dtype=np.intp)
         self._states = {
             side: np.array([side.inputs[name] for name in carried if name in side.inputs], dtype=np.intp)
             for side in (self.slim, self.full)
@@ -113,9 +113,9 @@ class System:
     def __hash__(self) -> int:
         return id(self)
 
-    def __reduce__(self) -> tuple[type[System], tuple[EquationOfMotion]]:
-        """Made anew from the equation: compiled code and its buffers stay with their process."""
-        return System, (self.equation,)
+    def __reduce__(self) -> tuple[type[System], tuple[Stretch]]:
+        """Made anew from its stretch: compiled code and its buffers stay with their process."""
+        return System, (self.stretch,)
 
     @staticmethod
     def _rows(side: Side) -> dict[int, int]:
@@ -160,7 +160,7 @@ class System:
         """Coordinates and rates of the inputs that have laws."""
         for name in self.prescribed:
             course = self.equation.source.drivers[name].law.coordinate(np.array([t]))
-            for kind, value in zip(("q", "w", "second"), course, strict=True):
+            for kind, value in zip(("q", "qd", "second"), course, strict=True):
                 row = side.inputs.get(f"{kind}:{name}")
                 if row is not None:
                     side.x[row] = float(value[0])
@@ -289,7 +289,7 @@ class System:
             index, sign = group[0]
             surface = self.surfaces[index]
             rows.append(surface.members[0][1] * sign * self.gap_by(out, surface.number))
-            first.append(surface.members[0][1] * sign * out[self.place[f"rate:{surface.number}"]])
+            first.append(surface.members[0][1] * sign * out[self.place[f"gap_rate:{surface.number}"]])
         self._set_sides(sides)
         for number in touch:
             row = self.full.inputs[contact_name(self.stops[number])]
@@ -393,7 +393,7 @@ class System:
             index, sign = group[0]
             surface = self.surfaces[index]
             by = self.gap_by(out, surface.number)
-            change = out[self.place[f"rate:{surface.number}"]] + by @ (accelerations - out[: len(self.free)])
+            change = out[self.place[f"gap_rate:{surface.number}"]] + by @ (accelerations - out[: len(self.free)])
             if way and way * sign * surface.members[0][1] * change < -SLACK * size * float(np.linalg.norm(by)):
                 return False
         return True
@@ -410,7 +410,7 @@ class System:
             size = float(np.linalg.norm(by))
             jump, scale = self._jump(t, y, index)
             if size == 0.0 or jump <= NO_JUMP * scale:
-                rate = surface.members[0][1] * out[self.place[f"rate:{surface.number}"]]
+                rate = surface.members[0][1] * out[self.place[f"gap_rate:{surface.number}"]]
                 self.holding.sides[index] = 1.0 if rate >= 0.0 else -1.0
                 self._set_sides(self.holding.sides)
                 continue
@@ -445,7 +445,7 @@ def _way(share: float, most: float) -> int:
 def surfaces_of(equation: EquationOfMotion) -> list[Surface]:
     """The switches, those together whose comparisons differ by sense alone."""
     lines = equation.switches.trace.lines
-    rates = {f"w:{name}" for name in equation.free}
+    rates = {f"qd:{name}" for name in equation.free}
     found: dict[tuple[int, ...], list[tuple[int, float]]] = {}
     for number, line in enumerate(equation.switches.lines):
         low, high = lines[line][1:]

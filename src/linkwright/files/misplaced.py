@@ -9,7 +9,7 @@ from itertools import groupby
 from typing import Any
 
 from linkwright.actuators.base import ACTUATORS
-from linkwright.applied_loads.base import LOADS
+from linkwright.applied_loads.base import ELSEWHERE, LOADS
 from linkwright.fields.nodes import Entry, Node, Scalar, Sequence
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.files.node_reader import MODES, PlainReader, meant_kind
@@ -188,6 +188,8 @@ def _belongs(entry: Entry, *, within: str, there: Set[str]) -> str:
     if name in OWN or not isinstance(value, MappingNode):
         return ""
     if kind := value.get("kind"):
+        if within == "loads" and isinstance(kind, Scalar) and meaning(kind.text) & ELSEWHERE.keys():
+            return ""
         sections = (within, *KINDS) if within in KINDS else KINDS
         found = next((name for name in sections if meant_kind(kind, KINDS[name]) is not None), "")
         return "" if found == within else found

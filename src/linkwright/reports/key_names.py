@@ -34,6 +34,13 @@ SHARED: Mapping[str, Message] = {
 #: Keys of joints, drivers and loads.
 MODEL_KEYS: Mapping[str, Message] = {
     **SHARED,
+    "barrel": pgettext("given", "barrel"),
+    "colour": _("colour"),
+    "inertia": _("moment of inertia"),
+    "mass": _("mass"),
+    "mass_centre": _("mass centre"),
+    "rod": pgettext("given", "rod"),
+    "stroke": _("stroke"),
     "about": _("about"),
     "against": _("against"),
     "along": _("along"),

@@ -79,9 +79,9 @@ def sides(stretch: Stretch, n: int) -> tuple[Callable[[float, Floats], Floats], 
     """The right-hand side of a stretch, and one with kinetic energy and qualities as well."""
     description = stretch.description
     equation = description.equation
-    names = [*(f"a:{name}" for name in equation.free), "power"]
-    more = [*names, "kinetic", *(f"quality:{group}" for group in equation.groups)]
-    first = [f"{kind}:{name}" for kind in ("q", "w") for name in equation.free]
+    names = [*(f"qdd:{name}" for name in equation.free), "power"]
+    more = [*names, "kinetic", *(f"closure:{group}" for group in equation.groups)]
+    first = [f"{kind}:{name}" for kind in ("q", "qd") for name in equation.free]
     slim, full = (
         stretch.side(
             RightSide(equation.program(each), equation.numbers, tables=equation.tables, first=[*first, "time"])

@@ -45,7 +45,7 @@ def test_two_rods_obey_lagranges_equations() -> None:
             m2 * r2 * g * math.cos(q[0] + q[1]),
         ]
     )
-    given = {"q:one": q[0], "q:two": q[1], "w:one": w[0], "w:two": w[1]}
+    given = {"q:one": q[0], "q:two": q[1], "qd:one": w[0], "qd:two": w[1]}
     names = [
         "M:one:one",
         "M:one:two",
@@ -53,8 +53,8 @@ def test_two_rods_obey_lagranges_equations() -> None:
         "M:two:two",
         "h:one",
         "h:two",
-        "a:one",
-        "a:two",
+        "qdd:one",
+        "qdd:two",
         "power",
         "kinetic",
     ]
@@ -69,11 +69,11 @@ def test_two_rods_obey_lagranges_equations() -> None:
 def test_a_prescribed_input_leaves_the_equation_of_the_other() -> None:
     """The first rod at constant speed: the second one swings as seen from a turning support."""
     equation = EquationOfMotion(lw.loads(TWO_RODS), prescribed=["one"])
-    given = {"q:one": 0.4, "q:two": 0.9, "w:one": 1.3, "w:two": -0.7, "second:one": 2.0}
+    given = {"q:one": 0.4, "q:two": 0.9, "qd:one": 1.3, "qd:two": -0.7, "second:one": 2.0}
     j, m, r, l1 = 0.04 + 0.7 * 0.4**2, 0.7, 0.4, 1.0
     coupled = m * (r**2 + l1 * r * math.cos(0.9)) + 0.04
     expected = -(coupled * 2.0 + m * l1 * r * math.sin(0.9) * 1.3**2 + m * 9.81 * r * math.cos(1.3)) / j
-    assert equation.evaluate(["a:two"], given, 1)[0, 0] == pytest.approx(expected, rel=1e-13)
+    assert equation.evaluate(["qdd:two"], given, 1)[0, 0] == pytest.approx(expected, rel=1e-13)
 
 
 def test_signs_of_rates_are_switches() -> None:
@@ -88,9 +88,9 @@ cycle: {duration: 1 s}
 gravity: [0, -10 m/s²]
 """
     equation = EquationOfMotion(lw.loads(text))
-    gaps = equation.evaluate(["gap:0", "gap:1"], {"w:driver": 2.0}, 1)[:, 0]
+    gaps = equation.evaluate(["gap:0", "gap:1"], {"qd:driver": 2.0}, 1)[:, 0]
     assert sorted(gaps) == [-2.0, 2.0]
     falling = {name: float(gap > 0.0) for name, gap in zip(equation.switches.names, gaps, strict=True)}
-    assert equation.evaluate(["a:driver"], {"w:driver": 2.0, **falling}, 1)[0, 0] == pytest.approx(-3.0, rel=1e-13)
+    assert equation.evaluate(["qdd:driver"], {"qd:driver": 2.0, **falling}, 1)[0, 0] == pytest.approx(-3.0, rel=1e-13)
     rising = {name: 1.0 - each for name, each in falling.items()}
-    assert equation.evaluate(["a:driver"], {"w:driver": -2.0, **rising}, 1)[0, 0] == pytest.approx(3.0, rel=1e-13)
+    assert equation.evaluate(["qdd:driver"], {"qd:driver": -2.0, **rising}, 1)[0, 0] == pytest.approx(3.0, rel=1e-13)

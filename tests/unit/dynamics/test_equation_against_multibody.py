@@ -46,9 +46,9 @@ def differences(seed: int) -> dict[str, float]:
         return {}
     qdd = owner.acceleration(0.0, q, qd)
     motion = Motion(owner.system, q[None], qd[None], qdd[None], owner.system.jacobian(q[None]))
-    given = {f"q:{name}": value for name, value in at.items()} | {f"w:{name}": rate for name, rate in rates.items()}
+    given = {f"q:{name}": value for name, value in at.items()} | {f"qd:{name}": rate for name, rate in rates.items()}
     given |= switched(equation, given | equation.states)
-    own = equation.evaluate([f"a:{name}" for name in equation.free], given, 1)[:, 0]
+    own = equation.evaluate([f"qdd:{name}" for name in equation.free], given, 1)[:, 0]
     expected = driven_seconds(owner, q, qd, qdd)
     found = {"acceleration": _relative(own, expected)}
     given |= {Input("second", name).name: float(value) for name, value in zip(equation.free, own, strict=True)}

@@ -12,7 +12,7 @@ from linkwright.formula.table import Table
 from linkwright.formula.trace import Trace, sin
 
 BACKENDS = [False, pytest.param(True, marks=pytest.mark.skipif(not available(), reason="no llvmlite"))]
-FIRST = ("q:arm", "w:arm", "time")
+FIRST = ("q:arm", "qd:arm", "time")
 NUMBERS = {"gravity": 9.81, "length": 0.4}
 CURVE = Table.spline([0.0, 1.0, 2.0, 3.0], [0.0, 1.0, 0.0, 2.0])
 
@@ -20,9 +20,9 @@ CURVE = Table.spline([0.0, 1.0, 2.0, 3.0], [0.0, 1.0, 0.0, 2.0])
 def pendulum() -> Program:
     """One kilogram on a rod without mass."""
     t = Trace()
-    q, w = t.position("q:arm"), t.position("w:arm")
+    q, w = t.position("q:arm"), t.position("qd:arm")
     gravity, length = t.parameter("gravity"), t.parameter("length")
-    return Program.of(t, {"a:arm": -gravity / length * sin(q), "power": -gravity * length * sin(q) * w})
+    return Program.of(t, {"qdd:arm": -gravity / length * sin(q), "power": -gravity * length * sin(q) * w})
 
 
 def of_every_input() -> Program:

@@ -223,7 +223,7 @@ def test_loads_go_by_the_models_driver_in_other_coordinates() -> None:
     energies = []
     for stretch, y, kinetic in zip(found.stretches, found.states, found.kinetic, strict=True):
         equation, description = stretch.description.equation, stretch.description
-        given = {**description.held, f"q:{equation.names[0]}": y[0], f"w:{equation.names[0]}": y[1]}
+        given = {**description.held, f"q:{equation.names[0]}": y[0], f"qd:{equation.names[0]}": y[1]}
         angle = equation.evaluate(["input:driver"], given, y.shape[1])[0] if equation.replaced else y[0]
         places = [description.place(each[:1], each[1:2]) for each in y.T]
         heights = [

@@ -35,6 +35,14 @@ ROOMS: Mapping[str, Registry] = {
 SOLVING = ("topology", "kinematics", "engine", "groups")
 #: What is left, by file: how often a kind is asked for or imported, and why.
 LEFT: Mapping[str, tuple[int, str]] = {
+    "dynamics/extent.py": (2, "drives coordinates at constant speed to find how far they go"),
+    "dynamics/found_course.py": (1, "the table that stands for the course of a run in a file"),
+    "dynamics/hand_over.py": (1, "frees the coordinates of another description"),
+    "dynamics/site.py": (4, "frees drivers, and drives them at constant speed where limits are sought"),
+    "dynamics/verdicts/drive.py": (1, "lets an input creep to find what starting takes"),
+    "dynamics/verdicts/stalled_run.py": (2, "the nominal speed of an input that is free"),
+    "files/read_model.py": (1, "the laws that a path gives its drivers"),
+    "kinematics/following.py": (2, "drives the point of a path along both axes"),
     "cams/compensating_cam.py": (2, "finds the lift of a cam joint"),
     "dyads/calls.py": (7, "calls of the teaching subprograms, of which each is about kinds of its own"),
     "dyads/listed_forces.py": (4, "which loads and joints a listing can write"),

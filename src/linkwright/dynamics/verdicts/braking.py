@@ -254,7 +254,7 @@ def _one(machine: Mechanism, drive: Drive, place: float, speed: float, at_most: 
 
 
 def _state(name: str, place: float | Floats, speed: float) -> dict[str, Floats | float]:
-    return {f"q:{name}": place, f"w:{name}": speed}
+    return {f"q:{name}": place, f"qd:{name}": speed}
 
 
 def _means(machine: Mechanism, drive: Drive, speed: float) -> tuple[float, float]:

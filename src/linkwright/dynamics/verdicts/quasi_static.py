@@ -58,7 +58,7 @@ class Course:
     def inputs(self) -> dict[str, Floats]:
         """The same as inputs of the programs of an equation of motion."""
         found = {f"q:{name}": row for name, row in self.places.items()}
-        found |= {f"w:{name}": row for name, row in self.rates.items()}
+        found |= {f"qd:{name}": row for name, row in self.rates.items()}
         found |= {Input("second", name).name: row for name, row in self.seconds.items()}
         return {**found, **self.states}
 
@@ -90,7 +90,7 @@ class QuasiStatic:
         equation = self.equation
         values: dict[str, Scalar | bool] = {}
         for name in equation.names:
-            values[f"effort:{name}"] = equation.forces.outputs.value(row_name("effort", name))
+            values[row_name("effort", name)] = equation.forces.outputs.value(row_name("effort", name))
             values[f"ideal:{name}"] = equation.plain.outputs.value(row_name("effort", name))
         friction = equation.forces.programs.friction
         if friction is not None:
@@ -103,7 +103,7 @@ class QuasiStatic:
 
     @cached_property
     def _qualities(self) -> Program:
-        return self.equation.program(f"quality:{group}" for group in self.equation.groups)
+        return self.equation.program(f"closure:{group}" for group in self.equation.groups)
 
     def running(self, course: Course, time: float = 0.0) -> Efforts:
         """At the speeds and accelerations of the course, all at one ``time``, s."""
@@ -141,5 +141,5 @@ class QuasiStatic:
             rows = self.equation.run(program, {**course.inputs(), **held, "time": time}, course.count)
         found = dict(zip(program.output_names, rows, strict=True))
         moves = found["found"] > 0.5 if "found" in found else np.ones(course.count, dtype=bool)
-        effort = {name: np.where(moves, found[f"effort:{name}"], np.nan) for name in names}
+        effort = {name: np.where(moves, found[row_name("effort", name)], np.nan) for name in names}
         return Efforts(effort, {name: found[f"ideal:{name}"] for name in names})

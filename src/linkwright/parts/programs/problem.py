@@ -199,6 +199,10 @@ class Variable:
     start: float | None = None
     dimension: units.Dimension = units.NONE
 
+    def __post_init__(self) -> None:
+        missing = len(units.NONE) - len(self.dimension)
+        object.__setattr__(self, "dimension", (*self.dimension, *(0,) * missing))
+
     @property
     def discrete(self) -> bool:
         """Whether it takes single values only."""
