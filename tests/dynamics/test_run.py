@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from tests.refusals import refused
 
 import linkwright as lw
 
@@ -158,3 +159,9 @@ run: {until: rest}
 def test_a_machine_that_forces_hold_from_the_beginning_is_at_rest() -> None:
     run = lw.run(block("10 deg", ", friction: 0.3"), until="rest")
     assert (run.end, run.events[-1].kind) == (0.0, "rest")
+
+
+def test_a_run_that_begins_beyond_a_stop_names_it() -> None:
+    stops = "stops: {floor: {of: B.y, at: 2 m, side: below}}\n"
+    with refused("dynamics.beyond_stop", stop="floor"):
+        lw.run(block("90 deg", more=stops), at=1.0)

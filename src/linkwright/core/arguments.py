@@ -163,7 +163,9 @@ def describe(value: object) -> str:
 def _hint(value: object, names: list[str]) -> str:
     """What to write instead."""
     name = type(value).__name__.lower()
-    own = next((each.lower() for each in names if hasattr(value, each.lower()) and each != "Mechanism"), None)
+    own = next(
+        (each.lower() for each in names if hasattr(value, each.lower()) and each not in ("Mechanism", "Run")), None
+    )
     code = f"{name}.{own}" if own else _made(value, names)
     if code:
         return _("write {example}", example=code)

@@ -29,6 +29,8 @@ from linkwright.words.message import together
 BOUNCES = 1e-6
 #: Below this share of the largest inertia there is none; how far around a start that is looked for, rad or size.
 MASSLESS, ABOUT = 1e-6, 0.1
+#: Below this share of the machine's size a stop is touched, not behind, where a run begins.
+BEHIND = 1e-7
 #: Change of the speed from turn to turn below which a run is steady, as share of the speed.
 STEADY = 1e-8
 #: How long a run is without other conditions, and one that waits for rest or steadiness at most, s.
@@ -344,10 +346,21 @@ class _Course:
         system.hold(holding)
 
     def _touching(self, out: Floats) -> list[int]:
-        """Stops that are touched and neither left nor run into."""
+        """Stops that are touched and neither left nor run into; raises LinkwrightError where one is behind."""
         system, found = self.system, []
         for number, name in enumerate(system.stops):
             gap, rate = (out[system.place[f"{kind}:{name}"]] for kind in ("stop", "stop_rate"))
+            if gap < -BEHIND * self.mechanism.size:
+                raise LinkwrightError(
+                    _(
+                        "{name!r} begins beyond its stop {stop}, at {where}; begin on the other side of it, or "
+                        "move it",
+                        code="dynamics.beyond_stop",
+                        name=self.mechanism.name,
+                        stop=name,
+                        where=self._where(self.y),
+                    )
+                )
             if gap <= ZERO * self.mechanism.size and rate <= 0.0:
                 found.append(number)
         return found

@@ -17,12 +17,10 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import SLIDE, row_name, row_names
 from linkwright.core.quantity import shown
-from linkwright.drivers.base import Driver
+from linkwright.drivers.base import LAWS, Driver
 from linkwright.drivers.following import Following, Guidance, PathPoint
-from linkwright.drivers.table import TableLaw
 from linkwright.formula.recently_made import Recent
-from linkwright.joints.base import implied_joint
-from linkwright.joints.prismatic import PrismaticJoint
+from linkwright.joints.base import JOINTS, implied_joint
 from linkwright.kinematics.motion import Motion, PositionError
 from linkwright.kinematics.positions import CycleError, Positions, at_times, rotary
 from linkwright.kinematics.solve import MotionRun, with_times
@@ -54,11 +52,12 @@ def driven_at_point(guidance: Guidance) -> Mechanism:
         CROSS: Link(CROSS, "point", {CROSS: (0.0, 0.0)}),
         CARRIAGE: Link(CARRIAGE, "point", {CARRIAGE: (0.0, 0.0)}),
     }
+    guide: Any = JOINTS["prismatic"]
     joints = {
         **machine.joints,
         CARRIAGE: implied_joint(CARRIAGE, (point.link, CARRIAGE)),
-        "@x": PrismaticJoint("@x", "frame", ORIGIN, 0.0, None, CROSS, CROSS),
-        "@y": PrismaticJoint("@y", CROSS, CROSS, 0.5 * math.pi, None, CARRIAGE, CARRIAGE),
+        "@x": guide("@x", "frame", ORIGIN, 0.0, None, CROSS, CROSS),
+        "@y": guide("@y", CROSS, CROSS, 0.5 * math.pi, None, CARRIAGE, CARRIAGE),
     }
     drivers = {
         "@x": Driver("@x", "@x", CROSS, "frame", PathPoint(path, 0)),
@@ -264,7 +263,8 @@ class _Course:
     def _refuse_singular(self) -> None:
         """Refuses a path that leads through a position in which the drivers do not hold the point."""
         posed, times = self.posed(), tuple(self.motion.time.tolist())
-        laws = {name: TableLaw(times, tuple(q.tolist()), rotary=rotates) for name, q, rotates in self._courses()}
+        table: Any = LAWS["table"]
+        laws = {name: table(times, tuple(q.tolist()), rotary=rotates) for name, q, rotates in self._courses()}
         drivers = {name: replace(each, law=laws.get(name, each.law)) for name, each in posed.drivers.items()}
         machine = replace(posed, drivers=drivers)
         motion = MotionRun(MotionSolver(machine), self.positions()).solve("mark")

@@ -75,7 +75,7 @@ _STOP_KEYS = {
     "restitution": pgettext("stop", "Restitution"),
 }
 _RUN_KEYS = {
-    "speed": pgettext("run", "Speed at first"),
+    "speed": pgettext("run", "Speed"),
     "for": pgettext("run", "Runs for"),
     "turns": pgettext("run", "Turns"),
     "until": pgettext("run", "Until"),

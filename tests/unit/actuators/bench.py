@@ -63,7 +63,7 @@ def found(equation: EquationOfMotion, names: list[str], given: Mapping[str, floa
 
 def effort(equation: EquationOfMotion, w: float = 0.0, *, time: float = 0.0, q: float = 0.0) -> float:
     """Torque (N·m) or force (N) that the actuator gives on the only driver's coordinate, at its rate."""
-    return -found(equation, ["h:driver"], {"q:driver": q, "w:driver": w, "time": time})[0]
+    return -found(equation, ["h:driver"], {"q:driver": q, "qd:driver": w, "time": time})[0]
 
 
 def inertia(equation: EquationOfMotion) -> float:

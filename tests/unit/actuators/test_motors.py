@@ -129,7 +129,7 @@ def test_a_gear_multiplies_torque_and_divides_speed_and_takes_its_part_of_the_po
 def test_a_rotor_counts_with_the_square_of_the_ratio() -> None:
     equation = machine(f"{DC}, ratio: -10, inertia: 0.05 kg·m²")
     assert inertia(equation) == pytest.approx(2.0 + 100 * 0.05, rel=1e-14)
-    (second,) = found(equation, ["a:driver"], {})
+    (second,) = found(equation, ["qdd:driver"], {})
     assert second == pytest.approx(-2250.0 / 7.0, rel=1e-13)
 
 

@@ -36,7 +36,7 @@ def test_a_cylinder_between_two_points_pushes_along_their_line() -> None:
     assert effort(plain, q=4.0) == pytest.approx(80.0, rel=1e-13)
     slow = machine("kind: cylinder, between: [frame.S, table.P], force: 100 N, largest_speed: 0.5 m/s", SLIDE)
     assert effort(slow, 0.25, q=4.0) == pytest.approx(80.0 * (1 - 0.2 / 0.5), rel=1e-13)
-    (power,) = found(plain, ["power"], {"q:driver": 4.0, "w:driver": 0.5})
+    (power,) = found(plain, ["power"], {"q:driver": 4.0, "qd:driver": 0.5})
     assert power == pytest.approx(100.0 * 0.4, rel=1e-13)
 
 
@@ -59,7 +59,7 @@ def test_a_flywheel_behind_a_gear_counts_with_the_square_of_its_ratio() -> None:
     assert inertia(machine("kind: flywheel, on: wheel, inertia: 0.5 kg·m²")) == pytest.approx(2.5, rel=1e-14)
     fast = machine("kind: flywheel, on: wheel, inertia: 0.5 kg·m², ratio: -3")
     assert inertia(fast) == pytest.approx(2.0 + 9 * 0.5, rel=1e-14)
-    (second,) = found(machine("kind: flywheel, on: wheel, inertia: 0.5 kg·m²", PUSHED), ["a:driver"], {})
+    (second,) = found(machine("kind: flywheel, on: wheel, inertia: 0.5 kg·m²", PUSHED), ["qdd:driver"], {})
     assert second == pytest.approx(30.0 / 2.5, rel=1e-13)
 
 

@@ -19,7 +19,7 @@ def motor(*, at: Vec = (0.0, 0.0), toward: Vec = (1.0, 0.0)) -> Shape:
     shaft = placed([(PIN, 0.0), (AWAY - MOTOR, 0.0)], at, toward)
     x, y = middle = (at[0] + AWAY * toward[0], at[1] + AWAY * toward[1])
     letter = points([(x - 4.6, y + 4.8), (x - 4.6, y - 4.8), (x, y + 1.6), (x + 4.6, y - 4.8), (x + 4.6, y + 4.8)])
-    elements = (Line(shaft, "lw-spring"), Circle(middle, MOTOR, "lw-support"), Line(letter, "lw-spring"))
+    elements = (Line(shaft, "lw-spring"), Circle(middle, MOTOR, "lw-rim"), Line(letter, "lw-spring"))
     return Shape(elements, (shaft, ring(middle, MOTOR, 18)))
 
 
