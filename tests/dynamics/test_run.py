@@ -165,3 +165,26 @@ def test_a_run_that_begins_beyond_a_stop_names_it() -> None:
     stops = "stops: {floor: {of: B.y, at: 2 m, side: below}}\n"
     with refused("dynamics.beyond_stop", stop="floor"):
         lw.run(block("90 deg", more=stops), at=1.0)
+
+
+def test_a_run_tells_where_a_cam_loses_its_follower() -> None:
+    """At 600 rpm the follower of 2 kg would have to be pulled where m (a + g) is below zero; at 60 rpm nowhere."""
+    text = """
+format: 1
+frame: {points: {C: [0 mm, 0 mm]}}
+links:
+  cam: {points: [C], inertia: 5 kg·m²}
+  rod: {points: [P], mass: 2 kg}
+joints:
+  way: {kind: prismatic, guide: frame, through: C, direction: 90 deg, block: rod, at: P}
+  lift: {kind: cam, cam: cam, follower: rod, at: P, touch: roller, base_radius: 40 mm, roller_radius: 10 mm,
+    program: [{rise: 30 mm, over: 100 deg, law: cycloidal}, {dwell: 80 deg}, {fall: 30 mm, over: 100 deg},
+      {dwell: 80 deg}]}
+driver: {turn: cam, about: C, speed: 600 rpm}
+gravity: [0, -9.81 m/s²]
+"""
+    for rpm, lost in ((600.0, True), (60.0, False)):
+        run = lw.run(lw.loads(text), turns=1.0, speed=rpm * math.pi / 30.0)
+        forces = run.joint_forces(180)
+        assert bool(forces.notes) == lost
+        assert (forces.motion.point("P").acceleration[:, 1].min() < -9.81) == lost

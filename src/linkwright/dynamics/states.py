@@ -20,6 +20,7 @@ from linkwright.formula.trace import Scalar
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.positions import Positions
 from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.run import contacts_lost
 from linkwright.kinetostatics.solver import ForceSolver, in_words
 
 #: Inputs of the equation's programs by name, (n,) each or one number.
@@ -160,4 +161,6 @@ def forces_at(motion: FoundMotion) -> FoundForces:
     values[:, ~motion.ok] = np.nan
     rows = Rows(values, {name: place for place, name in enumerate(names)})
     solver.programs.checks.require(rows, motion)
-    return FoundForces(motion, solver, {}, False, rows, found=motion.found)
+    forces = FoundForces(motion, solver, {}, False, rows, found=motion.found)
+    forces.notes = tuple(contacts_lost(forces))
+    return forces

@@ -79,7 +79,7 @@ def run_forces(
     rows = Rows(values, {name: i for i, name in enumerate(names)})
     solver.programs.checks.require(rows, motion)
     forces = Forces(motion, solver, fields, static, rows)
-    forces.notes = (*_indeterminate(motion), *_contacts_lost(forces))
+    forces.notes = (*_indeterminate(motion), *contacts_lost(forces))
     return forces
 
 
@@ -103,7 +103,7 @@ _LOST = {
 }
 
 
-def _contacts_lost(forces: Forces) -> Iterable[Message]:
+def contacts_lost(forces: Forces) -> Iterable[Message]:
     """Where pairs that can only push would have to pull, and belts to push."""
     motion = forces.motion
     drivers = motion.mechanism.drivers.values()
