@@ -16,9 +16,10 @@ from linkwright.core.progress import Progress, current_progress
 from linkwright.core.table import MOST, Amount, Cell, Table, Tabular
 from linkwright.designs.runs_alone import found_alone
 from linkwright.designs.varied_dimensions import design_values
+from linkwright.dynamics.conditions import PATIENCE, USUAL, conditions_of
 from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.loop import Outcome
-from linkwright.dynamics.run import PATIENCE, USUAL, conditions_of, run
+from linkwright.dynamics.run import run
 from linkwright.dynamics.side_by_side import Ends, SideBySide, Starts
 from linkwright.errors import LinkwrightError
 from linkwright.formula.machine_code import available

@@ -20,7 +20,7 @@ from linkwright.core.outputs import row_name
 from linkwright.drivers.base import Driver
 from linkwright.dynamics.site import FreeSite, SeenFromModel, coordinate_of, freed, load_numbers, near_name
 from linkwright.dynamics.stops import contact_name, stop_gap
-from linkwright.dynamics.switches import Held, Switches, gap_name
+from linkwright.dynamics.switches import Held, Switches, gap_name, gap_rate_name
 from linkwright.errors import LinkwrightError
 from linkwright.formula.differentiation import slope
 from linkwright.formula.linear_algebra import determinant, product, solution
@@ -210,7 +210,7 @@ class EquationOfMotion:
         found: dict[str, Scalar | bool] = {}
         for number in range(len(self.switches.lines)):
             gap = _number(out[gap_name(number)])
-            found[f"gap_rate:{number}"] = slope(gap, along)
+            found[gap_rate_name(number)] = slope(gap, along)
             found |= {f"by:{number}:{name}": slope(gap, {rates[name]: 1.0}) for name in self.free}
         for stop in self.mechanism.stops:
             rate = slope(_number(out[f"stop:{stop}"]), along)

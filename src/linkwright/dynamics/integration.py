@@ -139,13 +139,13 @@ class Stepper:
         """Values of what is watched, and those of the ends behind them."""
         held = system.constrained(t, y)[1] if system.holding.constrained else np.empty(0)
         out = system.evaluate(system.full, t, y)
-        gaps, sticking = system.gaps(out), len(system.holding.stick)
+        gaps, stops, sticking = system.gaps(out), system.at_stops("stop", out), len(system.holding.stick)
         found = []
         for each in watched:
             if each.kind == "surface":
                 found.append(each.sense * gaps[each.number])
             elif each.kind == "stop":
-                found.append(out[system.place[f"stop:{system.stops[each.number]}"]])
+                found.append(stops[each.number])
             elif each.kind == "slip":
                 share = held[each.number]
                 found.append(share if each.sense > 0.0 else 1.0 - share)

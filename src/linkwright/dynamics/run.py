@@ -4,37 +4,32 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
 from linkwright.core.arguments import require
 from linkwright.core.arrays import Floats
 from linkwright.core.progress import Progress, current_progress
+from linkwright.dynamics.conditions import End, conditions_of
 from linkwright.dynamics.equation import EquationOfMotion
+from linkwright.dynamics.impacts import Impacts
 from linkwright.dynamics.integration import AT_ONCE, Method, Piece, Stepper, StepTooSmall, Watched
 from linkwright.dynamics.result import Happening, Run
 from linkwright.dynamics.singular import SingularPositions, Stretch
-from linkwright.dynamics.switches import gap_name
 from linkwright.dynamics.system import ZERO, Holding, System
-from linkwright.errors import LinkwrightError, RequestError
+from linkwright.errors import LinkwrightError
 from linkwright.kinematics.positions import coordinate_text
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.mechanism.run_conditions import RunConditions, Until
-from linkwright.registry import no_such
 from linkwright.words import Message, _
 from linkwright.words.message import together
 
-#: Below this share of the fastest approach so far a stop is no longer bounced off.
-BOUNCES = 1e-6
 #: Below this share of the largest inertia there is none; how far around a start that is looked for, rad or size.
 MASSLESS, ABOUT = 1e-6, 0.1
 #: Below this share of the machine's size a stop is touched, not behind, where a run begins.
 BEHIND = 1e-7
 #: Change of the speed from turn to turn below which a run is steady, as share of the speed.
 STEADY = 1e-8
-#: How long a run is without other conditions, and one that waits for rest or steadiness at most, s.
-USUAL, PATIENCE = 1.0, 600.0
 
 
 def run(
@@ -86,59 +81,6 @@ def run(
     return _Course(mechanism, conditions, tolerance, method, progress or current_progress()).go()
 
 
-def conditions_of(
-    mechanism: Mechanism,
-    duration: float | None = None,
-    turns: float | None = None,
-    until: Until | None = None,
-    at_most: float | None = None,
-    at: float | Mapping[str, float] | None = None,
-    speed: float | Mapping[str, float] | None = None,
-    prescribed: Iterable[str] | None = None,
-) -> RunConditions:
-    """How a run begins and ends: what is given goes before the section ``run`` of the file."""
-    asked = mechanism.run or RunConditions()
-    return RunConditions(
-        at={**asked.at, **_by_name(mechanism, at)},
-        speed={**asked.speed, **_by_name(mechanism, speed)},
-        duration=duration if _any(duration, turns, until) else asked.duration,
-        turns=turns if _any(duration, turns, until) else asked.turns,
-        until=until if _any(duration, turns, until) else asked.until,
-        at_most=asked.at_most if at_most is None else at_most,
-        prescribed=asked.prescribed if prescribed is None else tuple(prescribed),
-    )
-
-
-def _any(*values: object) -> bool:
-    return any(each is not None for each in values)
-
-
-def _by_name(mechanism: Mechanism, values: float | Mapping[str, float] | None) -> dict[str, float]:
-    if values is None:
-        return {}
-    if not isinstance(values, Mapping):
-        return {next(iter(mechanism.drivers), "driver"): float(values)}
-    for name in values:
-        if name not in mechanism.drivers:
-            raise RequestError(no_such(_("driver"), name, mechanism.drivers))
-    return {name: float(value) for name, value in values.items()}
-
-
-@dataclass(frozen=True)
-class _End:
-    """When a run ends."""
-
-    time: float
-    turns: float | None
-    until: Until | None
-
-    @classmethod
-    def of(cls, asked: RunConditions) -> _End:
-        if asked.turns is None and asked.until is None:
-            return cls(asked.duration or USUAL, None, None)
-        return cls(asked.at_most or PATIENCE, asked.turns, asked.until)
-
-
 class _Course:
     """One run."""
 
@@ -163,10 +105,10 @@ class _Course:
             )
         self.positions, self.t = SingularPositions(self.first), 0.0
         self.system, self.y = self._start()
-        self.end = _End.of(conditions)
+        self.end = End.of(conditions)
         self.begin = self.system.drivers(self.t, self.y)[self.first.free[0]][0]
         self.heaviest = self._inertia_about()
-        self.fastest: dict[int, float] = {}
+        self.impacts = Impacts()
         self.lost = 0.0
         self.at_once, self.held = 0, 0
         self.pieces: list[Piece] = []
@@ -201,8 +143,7 @@ class _Course:
 
     def _absolute(self) -> Floats:
         """Absolute errors of a step, from what forces do in the first radian, or the size of the machine."""
-        n, system = len(self.equation.free), self.system
-        out = system.evaluate(system.full, self.t, self.y).copy()
+        n, system, out = len(self.equation.free), self.system, self._outputs()
         if out[system.place["outcome"]] != 0.0 or not np.isfinite(out[: n + 1]).all():
             self._refuse_start(out)
         ways = [1.0 if self.equation.rotary[name] else self.mechanism.size for name in self.equation.free]
@@ -288,12 +229,9 @@ class _Course:
     def _pending(self, index: int) -> bool:
         """Whether a surface goes by the time alone and is still ahead."""
         system = self.system
-        surface = system.surfaces[index]
-        if surface.by_rate:
+        if system.surfaces[index].by_rate:
             return False
-        out = system.evaluate(system.full, self.t, self.y)
-        rate = surface.members[0][1] * out[system.place[f"gap_rate:{surface.number}"]]
-        return bool(system.holding.sides[index] * rate < 0.0)
+        return bool(system.holding.sides[index] * system.gap_rates(self._outputs())[index] < 0.0)
 
     # the way --------------------------------------------------------------------------------------------
     def go(self) -> Run:
@@ -324,32 +262,32 @@ class _Course:
         )
 
     def _first_holding(self) -> None:
-        system = self.system
-        out = system.evaluate(system.full, self.t, self.y).copy()
-        self._set_sides(out, range(len(system.surfaces)))
-        self._settle(self._touching(out))
+        self._set_sides(range(len(self.system.surfaces)))
+        self._settle(self._touching())
         self.kinetic = self._kinetic()
 
     def _kinetic(self) -> float:
         system = self.system
         return float(system.evaluate(system.full, self.t, self.y)[system.place["kinetic"]])
 
-    def _set_sides(self, out: Floats, indices: Iterable[int]) -> None:
+    def _set_sides(self, indices: Iterable[int]) -> None:
         """The sides on which surfaces are, or go to where they are zero."""
-        system = self.system
-        gaps, holding = system.gaps(out), system.holding.copy()
+        system, out = self.system, self._outputs()
+        gaps, rates, holding = system.gaps(out), system.gap_rates(out), system.holding.copy()
         for index in indices:
-            surface = system.surfaces[index]
-            rate = surface.members[0][1] * out[system.place[f"gap_rate:{surface.number}"]]
-            value = gaps[index] if gaps[index] != 0.0 else rate
+            value = gaps[index] if gaps[index] != 0.0 else rates[index]
             holding.sides[index] = 1.0 if value >= 0.0 else -1.0
         system.hold(holding)
 
-    def _touching(self, out: Floats) -> list[int]:
+    def _outputs(self) -> Floats:
+        """All outputs of the system now."""
+        return self.system.outputs(self.t, self.y)
+
+    def _touching(self) -> list[int]:
         """Stops that are touched and neither left nor run into; raises LinkwrightError where one is behind."""
-        system, found = self.system, []
-        for number, name in enumerate(system.stops):
-            gap, rate = (out[system.place[f"{kind}:{name}"]] for kind in ("stop", "stop_rate"))
+        system, out, found = self.system, self._outputs(), []
+        gaps, rates = system.at_stops("stop", out), system.at_stops("stop_rate", out)
+        for number, (name, gap, rate) in enumerate(zip(system.stops, gaps, rates, strict=True)):
             if gap < -BEHIND * self.mechanism.size:
                 raise LinkwrightError(
                     _(
@@ -376,8 +314,7 @@ class _Course:
     def _moved_over(self) -> bool:
         """Sets the sides of surfaces that do not go by rates as their gaps are now; whether one has changed."""
         system = self.system
-        out = system.evaluate(system.full, self.t, self.y).copy()
-        gaps, holding = system.gaps(out), system.holding.copy()
+        gaps, holding = system.gaps(self._outputs()), system.holding.copy()
         for index, surface in enumerate(system.surfaces):
             if not surface.by_rate and abs(gaps[index]) > 1e-12 * self._scale(index):
                 holding.sides[index] = 1.0 if gaps[index] > 0.0 else -1.0
@@ -392,11 +329,9 @@ class _Course:
         holding = system.decide(self.t, self.y, touch, slips)
         if not holding.constrained:
             return
-        out = system.evaluate(system.full, self.t, self.y).copy()
-        by = [system.gap_by(out, system.surfaces[group[0][0]].number) for group in holding.stick]
-        by += [system.stop_by(out, number) for number in holding.touch]
-        still = [out[system.place[gap_name(system.surfaces[group[0][0]].number)]] for group in holding.stick]
-        still += [out[system.place[f"stop_rate:{system.stops[number]}"]] for number in holding.touch]
+        out, stuck = self._outputs(), [group[0][0] for group in holding.stick]
+        by = [*(system.gap_by(out, index) for index in stuck), *(system.stop_by(out, k) for k in holding.touch)]
+        still = [*system.gaps(out)[stuck], *system.at_stops("stop_rate", out)[holding.touch]]
         self.y[n : 2 * n] -= np.linalg.lstsq(np.array(by), np.array(still), rcond=None)[0]
         self.held = int(np.linalg.matrix_rank(np.array(by)))
         if self.held == n and np.abs(self.y[n : 2 * n]).max() <= ZERO * system.pace.max(initial=0.0):
@@ -517,8 +452,7 @@ class _Course:
         self.system.pace = np.abs(self.y[n : 2 * n])
         self.heaviest = self._inertia_about()
         self.stepper.absolute = self._absolute()
-        out = self.system.evaluate(self.system.full, self.t, self.y).copy()
-        self._set_sides(out, range(len(self.system.surfaces)))
+        self._set_sides(range(len(self.system.surfaces)))
         self._settle(touch)
 
     def _owners(self, holding: Holding) -> list[str]:
@@ -544,8 +478,7 @@ class _Course:
     def _cross(self, crossed: list[int]) -> None:
         """Lets surfaces go over: those by rates that are zero exactly to zero, of which forces tell the rest, the
         others to their other side."""
-        system, n = self.system, len(self.equation.free)
-        out = system.evaluate(system.full, self.t, self.y).copy()
+        system, n, out = self.system, len(self.equation.free), self._outputs()
         zero, holding = system.zero(out, self.y), system.holding.copy()
         switched: dict[str, None] = {}
         for index in crossed:
@@ -565,37 +498,18 @@ class _Course:
             for k, each in enumerate(system.surfaces)
             if not each.by_rate and k not in crossed and abs(gaps[k]) <= 1e-12 * self._scale(k)
         ]
-        self._set_sides(system.evaluate(system.full, self.t, self.y).copy(), near)
+        self._set_sides(near)
 
     def _scale(self, index: int) -> float:
         return self.stepper.seen.get(("surface", index), 0.0)
 
     def _impact(self, hit: list[int], touch: list[int]) -> list[int]:
-        """Newton's impacts at stops, one after the other until none is run into; the stops that are touched then."""
-        system, n = self.system, len(self.equation.free)
-        stops = [self.equation.mechanism.stops[name] for name in system.stops]
+        """Impacts at stops; the stops that are touched then."""
+        system = self.system
         before = self._kinetic()
-        held = set(touch)
-        for _round in range(AT_ONCE):
-            out = system.evaluate(system.full, self.t, self.y).copy()
-            rates = {k: float(out[system.place[f"stop_rate:{system.stops[k]}"]]) for k in {*hit, *held}}
-            number = min(rates, key=rates.__getitem__)
-            rate = rates[number]
-            if rate >= -1e-14 * self.fastest.get(number, 0.0):
-                break
-            self.fastest[number] = max(self.fastest.get(number, 0.0), -rate)
-            by = system.stop_by(out, number)
-            turn = np.linalg.solve(system.mass(out), by)
-            rebound = stops[number].restitution if number not in held else 0.0
-            if -rate * rebound <= BOUNCES * self.fastest[number]:
-                rebound = 0.0
-                held.add(number)
-            impulse = -(1.0 + rebound) * rate / float(by @ turn)
-            self.y[n : 2 * n] += turn * impulse
+        self.y, held, impulses = self.impacts.at(system, self.t, self.y, hit, touch)
+        for number, impulse in impulses:
             self._note("impact", system.stops[number], impulse)
         self.lost += before - self._kinetic()
-        self._set_sides(
-            system.evaluate(system.full, self.t, self.y).copy(),
-            [k for k, each in enumerate(system.surfaces) if each.by_rate],
-        )
-        return sorted(held)
+        self._set_sides(k for k, each in enumerate(system.surfaces) if each.by_rate)
+        return held

@@ -13,7 +13,7 @@ from linkwright.core.arrays import Flags, Floats
 from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.loop import Action, Event, Layout, Loop, Motions, Outcome
 from linkwright.dynamics.run import STEADY
-from linkwright.dynamics.switches import gap_name, switch_name
+from linkwright.dynamics.switches import gap_name, gap_rate_name, switch_name
 from linkwright.dynamics.system import CLOSING_STEPS, Surface, surfaces_of
 from linkwright.formula.program import Program
 from linkwright.formula.trace import Scalar, absolute, minimum, sqrt
@@ -267,7 +267,7 @@ class SideBySide:
         rates = []
         for above in (True, False):
             self._set(surface, given, np.full(count, above))
-            gap, rate = sign * self.equation.evaluate([gap_name(number), f"gap_rate:{number}"], given, count)
+            gap, rate = sign * self.equation.evaluate([gap_name(number), gap_rate_name(number)], given, count)
             rates.append(np.where(gap == 0.0, rate, gap))
         up, down = rates[0] > 0.0, rates[1] < 0.0
         self._set(surface, given, up | ~(down | np.isnan(rates[0])))  # no rate at rest: as if it did not move

@@ -23,6 +23,11 @@ def gap_name(number: int) -> str:
     return f"gap:{number}"
 
 
+def gap_rate_name(number: int) -> str:
+    """Name of the output that is the rate of that along the motion."""
+    return f"gap_rate:{number}"
+
+
 @dataclass(frozen=True)
 class Switches:
     """The comparisons by which forces switch, by the numbers of their ``lines`` in the trace of a motion."""

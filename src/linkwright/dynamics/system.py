@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
+from typing import Literal, get_args
 
 import numpy as np
 
-from linkwright.core.arrays import Floats
+from linkwright.core.arrays import Floats, Indices
 from linkwright.core.outputs import Output
 from linkwright.dynamics.change_points import Bridged
 from linkwright.dynamics.complementarity import shares
@@ -17,7 +18,7 @@ from linkwright.dynamics.right_side import RightSide
 from linkwright.dynamics.singular import Stretch
 from linkwright.dynamics.site import near_name
 from linkwright.dynamics.stops import contact_name
-from linkwright.dynamics.switches import gap_name, switch_name
+from linkwright.dynamics.switches import gap_name, gap_rate_name, switch_name
 
 #: A rate is zero below this share of the largest one seen; a jump of accelerations, below this share of their size.
 ZERO, NO_JUMP = 1e-9, 1e-12
@@ -28,6 +29,9 @@ CLOSING_STEPS, CLOSED = 24, 1e-13
 
 
 Side = RightSide | Bridged
+#: Outputs of the equation about a stop: its distance, the rate of that, and the rate of the rate.
+StopOutput = Literal["stop", "stop_rate", "stop_second"]
+STOP_OUTPUTS: tuple[StopOutput, ...] = get_args(StopOutput)
 #: Surfaces, each with its side where the first is above, that stick and slip together.
 Group = tuple[tuple[int, float], ...]
 
@@ -84,9 +88,9 @@ class System:
         names += [f"next:{name}" for name in carried]
         count = len(equation.switches.lines)
         more = ["kinetic", "outcome"]
-        more += [gap_name(k) for k in range(count)] + [f"gap_rate:{k}" for k in range(count)]
+        more += [gap_name(k) for k in range(count)] + [gap_rate_name(k) for k in range(count)]
         more += [f"by:{k}:{name}" for k in range(count) for name in self.free]
-        more += [f"{kind}:{stop}" for kind in ("stop", "stop_rate", "stop_second") for stop in self.stops]
+        more += [f"{kind}:{stop}" for kind in STOP_OUTPUTS for stop in self.stops]
         more += [f"stop_by:{stop}:{name}" for stop in self.stops for name in self.free]
         more += [f"M:{a}:{b}" for a in self.free for b in self.free]
         more += [f"closure:{group}" for group in equation.groups]
@@ -99,7 +103,12 @@ class System:
             for wanted in (names, names + more)
         )
         self.place = {name: k for k, name in enumerate(self.full.program.output_names)}
-        self._qualities = np.array([self.place[f"closure:{group}"] for group in equation.groups], dtype=np.intp)
+        self._qualities = self._places(f"closure:{group}" for group in equation.groups)
+        self._signs = np.array([each.members[0][1] for each in self.surfaces])
+        self._gaps, self._gap_rates = (
+            self._places(name(each.number) for each in self.surfaces) for name in (gap_name, gap_rate_name)
+        )
+        self._stops = {kind: self._places(f"{kind}:{stop}" for stop in self.stops) for kind in STOP_OUTPUTS}
         self._states = {
             side: np.array([side.inputs[name] for name in carried if name in side.inputs], dtype=np.intp)
             for side in (self.slim, self.full)
@@ -116,6 +125,10 @@ class System:
     def __reduce__(self) -> tuple[type[System], tuple[Stretch]]:
         """Made anew from its stretch: compiled code and its buffers stay with their process."""
         return System, (self.stretch,)
+
+    def _places(self, names: Iterable[str]) -> Indices:
+        """Where outputs of ``full`` are."""
+        return np.array([self.place[name] for name in names], dtype=np.intp)
 
     @staticmethod
     def _rows(side: Side) -> dict[int, int]:
@@ -257,14 +270,15 @@ class System:
         and are where that brings them."""
         found = sides.copy()
         self._set_sides(found)
-        out = self.evaluate(self.full, t, y).copy()
+        out = self.outputs(t, y)
         for _round in self.following:
-            moved = [k for k in self.following if self.gaps(out)[k] * found[k] < 0.0]
+            gaps = self.gaps(out)
+            moved = [k for k in self.following if gaps[k] * found[k] < 0.0]
             if not moved:
                 break
             found[moved] *= -1.0
             self._set_sides(found)
-            out = self.evaluate(self.full, t, y).copy()
+            out = self.outputs(t, y)
         return out, found
 
     def below(self, groups: Sequence[Group], above: Group = ()) -> Floats:
@@ -287,9 +301,8 @@ class System:
         for group in stick:
             changes.append(self.on(t, y, self.below(stick, group))[0][: n + 1] - base)
             index, sign = group[0]
-            surface = self.surfaces[index]
-            rows.append(surface.members[0][1] * sign * self.gap_by(out, surface.number))
-            first.append(surface.members[0][1] * sign * out[self.place[f"gap_rate:{surface.number}"]])
+            rows.append(sign * self.gap_by(out, index))
+            first.append(sign * self.gap_rates(out)[index])
         self._set_sides(sides)
         for number in touch:
             row = self.full.inputs[contact_name(self.stops[number])]
@@ -297,15 +310,31 @@ class System:
             changes.append(self.evaluate(self.full, t, y)[: n + 1] - base)
             self.full.x[row] = 0.0
             rows.append(self.stop_by(out, number))
-            first.append(out[self.place[f"stop_second:{self.stops[number]}"]])
+            first.append(self.at_stops("stop_second", out)[number])
         self._set_sides(self.holding.sides)
         turns = np.array(changes).reshape(-1, n + 1)
         return base, np.array(first), np.array(rows).reshape(-1, n) @ turns[:, :n].T, turns
 
-    def gap_by(self, out: Floats, number: int) -> Floats:
-        """Derivatives of a gap by the free rates, (n,)."""
-        begin = self.place[f"by:{number}:{self.free[0]}"]
-        return out[begin : begin + len(self.free)]
+    def outputs(self, t: float, y: Floats) -> Floats:
+        """All outputs at a time and a state."""
+        return self.evaluate(self.full, t, y).copy()
+
+    def gaps(self, out: Floats) -> Floats:
+        """Gaps of the surfaces (surfaces,), positive above."""
+        return np.asarray(self._signs * out[self._gaps])
+
+    def gap_rates(self, out: Floats) -> Floats:
+        """Their rates (surfaces,)."""
+        return np.asarray(self._signs * out[self._gap_rates])
+
+    def gap_by(self, out: Floats, index: int) -> Floats:
+        """Derivatives of the gap of a surface by the free rates, (n,)."""
+        begin = self.place[f"by:{self.surfaces[index].number}:{self.free[0]}"]
+        return np.asarray(self._signs[index] * out[begin : begin + len(self.free)])
+
+    def at_stops(self, kind: StopOutput, out: Floats) -> Floats:
+        """Distances from the stops, ``stop``, their rates, or the rates of these, (stops,)."""
+        return out[self._stops[kind]]
 
     def stop_by(self, out: Floats, number: int) -> Floats:
         """Derivatives of the rate of a stop's gap by the free rates, (n,)."""
@@ -318,10 +347,6 @@ class System:
         return out[begin : begin + n * n].reshape(n, n)
 
     # deciding -------------------------------------------------------------------------------------------
-    def gaps(self, out: Floats) -> Floats:
-        """Gaps of the surfaces (surfaces,), positive above."""
-        return np.array([s.members[0][1] * out[self.place[gap_name(s.number)]] for s in self.surfaces])
-
     def zero(self, out: Floats, y: Floats) -> list[int]:
         """Surfaces by rates that are zero because the machine's own rates are, not because it stands where they do
         not move them; ``pace`` (n,): the largest rates so far."""
@@ -329,7 +354,7 @@ class System:
         pace = ZERO * max(float(np.abs(self.pace).max()), float(np.abs(y[n : 2 * n]).max()))
         for index, surface in enumerate(self.surfaces):
             if surface.by_rate:
-                size = float(np.linalg.norm(self.gap_by(out, surface.number)))
+                size = float(np.linalg.norm(self.gap_by(out, index)))
                 if size > 0.0 and abs(gaps[index]) <= pace * size:
                     found.append(index)
         return found
@@ -343,7 +368,7 @@ class System:
         """
         holding = Holding(self.holding.sides.copy())
         self.hold(holding)
-        groups = self._together(t, y, self.zero(self.evaluate(self.full, t, y).copy(), y))
+        groups = self._together(t, y, self.zero(self.outputs(t, y), y))
         touching = list(touch)
         if not groups and not touching:
             return holding
@@ -379,7 +404,7 @@ class System:
 
     def _consistent(self, t: float, y: Floats, groups: Sequence[Group], ways: tuple[int, ...]) -> bool:
         """Whether what slips goes on that way, and what holds needs no more than there is."""
-        out, accelerations = self.evaluate(self.full, t, y).copy(), None
+        out, accelerations = self.outputs(t, y), None
         if self.holding.constrained:
             found, held = self.constrained(t, y)
             accelerations = found[: len(self.free)]
@@ -391,10 +416,9 @@ class System:
         size = float(np.abs(accelerations).max())
         for group, way in zip(groups, ways, strict=False):
             index, sign = group[0]
-            surface = self.surfaces[index]
-            by = self.gap_by(out, surface.number)
-            change = out[self.place[f"gap_rate:{surface.number}"]] + by @ (accelerations - out[: len(self.free)])
-            if way and way * sign * surface.members[0][1] * change < -SLACK * size * float(np.linalg.norm(by)):
+            by = self.gap_by(out, index)
+            change = self.gap_rates(out)[index] + by @ (accelerations - out[: len(self.free)])
+            if way and way * sign * change < -SLACK * size * float(np.linalg.norm(by)):
                 return False
         return True
 
@@ -402,16 +426,14 @@ class System:
         """Surfaces whose rates are multiples of one another, as they stick and slip together; those across which no
         force jumps are set to the side to which they go."""
         n = len(self.free)
-        out = self.evaluate(self.full, t, y).copy()
+        out = self.outputs(t, y)
         found: list[tuple[list[tuple[int, float]], Floats]] = []
         for index in zero:
-            surface = self.surfaces[index]
-            by = surface.members[0][1] * self.gap_by(out, surface.number)
+            by = self.gap_by(out, index)
             size = float(np.linalg.norm(by))
             jump, scale = self._jump(t, y, index)
             if size == 0.0 or jump <= NO_JUMP * scale:
-                rate = surface.members[0][1] * out[self.place[f"gap_rate:{surface.number}"]]
-                self.holding.sides[index] = 1.0 if rate >= 0.0 else -1.0
+                self.holding.sides[index] = 1.0 if self.gap_rates(out)[index] >= 0.0 else -1.0
                 self._set_sides(self.holding.sides)
                 continue
             unit = by / size
