@@ -271,8 +271,11 @@ class EquationOfMotion:
     def row_program(self, names: Iterable[str], *, forces: bool) -> Program:
         """The program of rows of the motion, or of it and its forces (see ``core.outputs``), at given accelerations
         ``second:NAME`` of all inputs, switches held."""
-        value = self.forces.programs.value if forces else self.solver.outputs.value
-        return self.value_program({name: value(name) for name in names})
+        key = ("forces" if forces else "motion", *names)
+        if key not in self._programs:
+            value = self.forces.programs.value if forces else self.solver.outputs.value
+            self._programs[key] = self.value_program({name: value(name) for name in key[1:]})
+        return self._programs[key]
 
     def value_program(self, values: Mapping[str, Scalar | bool]) -> Program:
         """The same of any values of the trace of the motion, such as those of ``forces``, ``plain``, ``resting``."""
