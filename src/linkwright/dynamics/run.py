@@ -15,6 +15,7 @@ from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.impacts import Impacts
 from linkwright.dynamics.integration import AT_ONCE, Method, Piece, Stepper, StepTooSmall, Watched
 from linkwright.dynamics.result import Happening, Run
+from linkwright.dynamics.settling import freedoms_held, go_by_gaps, settle, settle_anew
 from linkwright.dynamics.singular import SingularPositions, Stretch
 from linkwright.dynamics.system import ZERO, Holding, System
 from linkwright.errors import LinkwrightError
@@ -28,6 +29,8 @@ from linkwright.words.message import together
 MASSLESS, ABOUT = 1e-6, 0.1
 #: Below this share of the machine's size a stop is touched, not behind, where a run begins.
 BEHIND = 1e-7
+#: A gap that is rounding, as share of the largest one seen.
+NO_GAP = 1e-12
 #: Change of the speed from turn to turn below which a run is steady, as share of the speed.
 STEADY = 1e-8
 
@@ -110,7 +113,7 @@ class _Course:
         self.heaviest = self._inertia_about()
         self.impacts = Impacts()
         self.lost = 0.0
-        self.at_once, self.held = 0, 0
+        self.at_once = 0
         self.pieces: list[Piece] = []
         self.happened: list[Happening] = []
         self.sections: list[Floats] = []
@@ -222,7 +225,7 @@ class _Course:
     def _resting(self) -> bool:
         """Whether all is held, and nothing is going to switch with the time."""
         system, n = self.system, len(self.equation.free)
-        if not system.holding.constrained or self.held < n or self.y[n : 2 * n].any():
+        if not system.holding.constrained or self.y[n : 2 * n].any() or freedoms_held(system, self.t, self.y) < n:
             return False
         return not any(self._pending(k) for k in range(len(system.surfaces)))
 
@@ -262,22 +265,12 @@ class _Course:
         )
 
     def _first_holding(self) -> None:
-        self._set_sides(range(len(self.system.surfaces)))
-        self._settle(self._touching())
+        self.y = settle_anew(self.system, self.t, self.y, self._touching())
         self.kinetic = self._kinetic()
 
     def _kinetic(self) -> float:
         system = self.system
         return float(system.evaluate(system.full, self.t, self.y)[system.place["kinetic"]])
-
-    def _set_sides(self, indices: Iterable[int]) -> None:
-        """The sides on which surfaces are, or go to where they are zero."""
-        system, out = self.system, self._outputs()
-        gaps, rates, holding = system.gaps(out), system.gap_rates(out), system.holding.copy()
-        for index in indices:
-            value = gaps[index] if gaps[index] != 0.0 else rates[index]
-            holding.sides[index] = 1.0 if value >= 0.0 else -1.0
-        system.hold(holding)
 
     def _outputs(self) -> Floats:
         """All outputs of the system now."""
@@ -302,40 +295,6 @@ class _Course:
             if gap <= ZERO * self.mechanism.size and rate <= 0.0:
                 found.append(number)
         return found
-
-    def _settle(self, touch: Iterable[int], slips: Mapping[int, int] | None = None) -> None:
-        """What holds from here on: as forces begin to go another way, phases of loads may, and other forces then."""
-        touching = list(touch)
-        for _round in range(AT_ONCE):
-            self._decide(touching, slips)
-            if not self._moved_over():
-                return
-
-    def _moved_over(self) -> bool:
-        """Sets the sides of surfaces that do not go by rates as their gaps are now; whether one has changed."""
-        system = self.system
-        gaps, holding = system.gaps(self._outputs()), system.holding.copy()
-        for index, surface in enumerate(system.surfaces):
-            if not surface.by_rate and abs(gaps[index]) > 1e-12 * self._scale(index):
-                holding.sides[index] = 1.0 if gaps[index] > 0.0 else -1.0
-        if (holding.sides == system.holding.sides).all():
-            return False
-        system.hold(holding)
-        return True
-
-    def _decide(self, touch: Iterable[int], slips: Mapping[int, int] | None = None) -> None:
-        """What sticks, slips and touches from here on; the rates of what holds become exactly zero."""
-        system, n = self.system, len(self.equation.free)
-        holding = system.decide(self.t, self.y, touch, slips)
-        if not holding.constrained:
-            return
-        out, stuck = self._outputs(), [group[0][0] for group in holding.stick]
-        by = [*(system.gap_by(out, index) for index in stuck), *(system.stop_by(out, k) for k in holding.touch)]
-        still = [*system.gaps(out)[stuck], *system.at_stops("stop_rate", out)[holding.touch]]
-        self.y[n : 2 * n] -= np.linalg.lstsq(np.array(by), np.array(still), rcond=None)[0]
-        self.held = int(np.linalg.matrix_rank(np.array(by)))
-        if self.held == n and np.abs(self.y[n : 2 * n]).max() <= ZERO * system.pace.max(initial=0.0):
-            self.y[n : 2 * n] = 0.0
 
     def _piece(self) -> bool:
         """One piece, and what happens at its end; whether the run goes on."""
@@ -416,7 +375,7 @@ class _Course:
             if each.kind == "slip":
                 index, _sign = system.holding.stick[each.number][0]
                 slips[index] = -1 if each.sense > 0.0 else 1
-        self._settle(touch, slips)
+        self.y = settle(system, self.t, self.y, touch, slips, self._no_gap)
         for kind, now, then in (("sticks", system.holding, standing), ("slips", standing, system.holding)):
             names = dict.fromkeys(owner for owner in self._owners(now) if owner not in self._owners(then))
             if names:
@@ -452,8 +411,7 @@ class _Course:
         self.system.pace = np.abs(self.y[n : 2 * n])
         self.heaviest = self._inertia_about()
         self.stepper.absolute = self._absolute()
-        self._set_sides(range(len(self.system.surfaces)))
-        self._settle(touch)
+        self.y = settle_anew(self.system, self.t, self.y, touch, self._no_gap)
 
     def _owners(self, holding: Holding) -> list[str]:
         """Whose friction holds."""
@@ -492,16 +450,15 @@ class _Course:
         if n == 1 and any(k in zero for k in crossed) and abs(self.y[n]) <= ZERO * system.pace[0]:
             self.y[n] = 0.0
             self._note("reversal", "")
-        gaps = system.gaps(out)
-        near = [
-            k
-            for k, each in enumerate(system.surfaces)
-            if not each.by_rate and k not in crossed and abs(gaps[k]) <= 1e-12 * self._scale(k)
-        ]
-        self._set_sides(near)
+        small = np.abs(system.gaps(out)) <= self._no_gap
+        near = [k for k, each in enumerate(system.surfaces) if not each.by_rate and k not in crossed and small[k]]
+        go_by_gaps(system, self.t, self.y, near)
 
-    def _scale(self, index: int) -> float:
-        return self.stepper.seen.get(("surface", index), 0.0)
+    @property
+    def _no_gap(self) -> Floats:
+        """Gaps (surfaces,) that are zero but for rounding."""
+        seen = self.stepper.seen
+        return NO_GAP * np.array([seen.get(("surface", k), 0.0) for k in range(len(self.system.surfaces))])
 
     def _impact(self, hit: list[int], touch: list[int]) -> list[int]:
         """Impacts at stops; the stops that are touched then."""
@@ -511,5 +468,5 @@ class _Course:
         for number, impulse in impulses:
             self._note("impact", system.stops[number], impulse)
         self.lost += before - self._kinetic()
-        self._set_sides(k for k, each in enumerate(system.surfaces) if each.by_rate)
+        go_by_gaps(system, self.t, self.y, (k for k, each in enumerate(system.surfaces) if each.by_rate))
         return held
