@@ -31,6 +31,8 @@ MASSLESS, ABOUT = 1e-6, 0.1
 BEHIND = 1e-7
 #: A gap that is rounding, as share of the largest one seen.
 NO_GAP = 1e-12
+#: Times this near, as share of the time or s, are one.
+SAME_TIME = 1e-9
 #: Change of the speed from turn to turn below which a run is steady, as share of the speed.
 STEADY = 1e-8
 
@@ -428,6 +430,12 @@ class _Course:
             return False
         return True
 
+    def _switched_now(self, owner: str) -> bool:
+        """Whether that a load or an actuator switches here is noted already: several comparisons may go over at the
+        same place, one after the other but for rounding."""
+        last = next((each for each in reversed(self.happened) if (each.kind, each.name) == ("switch", owner)), None)
+        return last is not None and self.t - last.time <= SAME_TIME * max(1.0, self.t)
+
     def _note(self, kind: str, name: str, value: float = 0.0) -> None:
         found = self.system.drivers(self.t, self.y)
         coordinates = tuple(found[each][0] for each in self.first.free)
@@ -446,7 +454,8 @@ class _Course:
                     switched.update(dict.fromkeys(system.surfaces[index].owners))
         system.hold(holding)
         for owner in switched:
-            self._note("switch", owner)
+            if not self._switched_now(owner):
+                self._note("switch", owner)
         if n == 1 and any(k in zero for k in crossed) and abs(self.y[n]) <= ZERO * system.pace[0]:
             self.y[n] = 0.0
             self._note("reversal", "")
