@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -66,6 +66,8 @@ class Run(PlotMixin):
     residual: float
     largest: float
     note: Message | None = None
+    #: The times that were asked for last: motion, forces and each driver's course are often wanted at the same ones.
+    _sampled: Samples | None = field(default=None, init=False, repr=False, compare=False)
 
     @property
     def end(self) -> float:
@@ -95,7 +97,10 @@ class Run(PlotMixin):
             raise RequestError(
                 _("times of a run go from 0 to {end:.6g} s and do not decrease", code="dynamics.times", end=self.end)
             )
-        return Samples(self.equation, self.pieces, locked(np.minimum(time, self.end)))
+        within = locked(np.minimum(time, self.end))
+        if self._sampled is None or not np.array_equal(self._sampled.time, within):
+            self._sampled = Samples(self.equation, self.pieces, within)
+        return self._sampled
 
     def motion(self, steps: int = STEPS, times: ArrayLike | None = None) -> FoundMotion:
         """The motion at equal steps of the time, or at ``times``, s."""
