@@ -13,7 +13,7 @@ from rich.text import Text
 from linkwright.cli.options import Options
 from linkwright.cli.session import Session, bold, styled_lines
 from linkwright.cli.solving import Solved, closeness, extremes_of, input_text, largest_reactions, leading, point_keys
-from linkwright.core.arrays import largest
+from linkwright.core.arrays import largest, runs
 from linkwright.core.table import Column, Table
 from linkwright.kinetostatics.forces import Forces, reaction_pairs, rubbing_guides
 from linkwright.mechanism.mechanism import Mechanism
@@ -393,13 +393,13 @@ def _checks(solved: Solved, translate: Translate) -> list[str]:
 def _failures(solved: Solved, translate: Translate, language: str, *, degrees: bool) -> list[str]:
     """Stretches of positions that are not reached, each with the sentence of its first position."""
     ok = solved.motion.ok
-    failed = np.flatnonzero(~ok)
-    if not len(failed):
+    failed = ~ok
+    if not failed.any():
         return []
-    lines = [translate(_("Not reached: {count} of {of} positions", count=len(failed), of=len(ok)))]
+    lines = [translate(_("Not reached: {count} of {of} positions", count=int(failed.sum()), of=len(ok)))]
     outcomes = solved.motion.outcomes
-    for run in np.split(failed, np.flatnonzero(np.diff(failed) > 1) + 1):
-        first, last = (input_text(solved.motion, int(place), degrees=degrees) for place in (run[0], run[-1]))
+    for run in runs(failed):
+        first, last = (input_text(solved.motion, place, degrees=degrees) for place in run)
         where = first if first == last else f"{first} … {last}"
-        lines.append(f"  {where}: {outcomes[int(run[0])].translate(language)}")
+        lines.append(f"  {where}: {outcomes[run[0]].translate(language)}")
     return lines

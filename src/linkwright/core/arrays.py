@@ -21,6 +21,12 @@ def begins(owner: Indices) -> Indices:
     return first.nonzero()[0]
 
 
+def runs(flags: Flags) -> list[tuple[int, int]]:
+    """The numbers of the first and the last one of every run of true ones."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(int)))
+    return [(first, end - 1) for first, end in edges.reshape(-1, 2).tolist()]
+
+
 def largest(values: Floats) -> float:
     """Largest size of the numbers that are finite; 0 where there is none."""
     return float(np.max(np.abs(values[np.isfinite(values)]), initial=0.0))

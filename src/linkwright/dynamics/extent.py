@@ -12,7 +12,7 @@ from typing import Literal, NoReturn
 
 import numpy as np
 
-from linkwright.core.arrays import Flags, Floats
+from linkwright.core.arrays import Flags, Floats, runs
 from linkwright.core.inputs import Input
 from linkwright.core.quantity import shown
 from linkwright.core.search import edge
@@ -154,13 +154,12 @@ class Extents:
 
     def _run_about_start(self, places: Floats, good: Flags) -> tuple[int, int]:
         """First and last place of the run of good ones that holds the start, or is next to it."""
-        edges = np.flatnonzero(np.diff(np.concatenate([[False], good, [False]]).astype(int))).reshape(-1, 2)
         lap, near = TURN, []
-        for begin, end in edges:
-            gaps = np.abs(places[begin:end] - self.start)
+        for first, last in runs(good):
+            gaps = np.abs(places[first : last + 1] - self.start)
             gaps = np.minimum(gaps % lap, lap - gaps % lap) if self.rotary else gaps
-            cut = begin == 0 or end == len(places)
-            near.append((round(float(gaps.min()), 9), cut, int(begin), int(end) - 1))
+            cut = first == 0 or last == len(places) - 1
+            near.append((round(float(gaps.min()), 9), cut, first, last))
         _gap, _cut, first, last = min(near)
         return first, last
 

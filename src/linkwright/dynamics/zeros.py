@@ -9,7 +9,7 @@ from typing import Literal
 
 import numpy as np
 
-from linkwright.core.arrays import Floats
+from linkwright.core.arrays import Flags, Floats, runs
 
 #: A value and its slope (2, n) at places (n,).
 Function = Callable[[Floats], Floats]
@@ -78,7 +78,7 @@ class Sampled:
     def zeros(self) -> list[Zero]:
         """All zeros by place."""
         q, value, flat = self.places, self.values, self._flat
-        found = [self._part(begin, end) for begin, end in _runs(flat)]
+        found = [self._part(begin, end) for begin, end in runs(flat)]
         isolated = ~(np.append(False, flat[:-1]) | flat | np.append(flat[1:], False))
         found += [self._crossing(place, place) for place in q[(value == 0.0) & isolated]]
         for i in range(len(q) - 1):
@@ -91,10 +91,10 @@ class Sampled:
         return sorted(found, key=lambda each: each.place)
 
     @property
-    def _flat(self) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    def _flat(self) -> Flags:
         """Places in parts where the function is zero but for rounding."""
         small = np.abs(self.values) <= FLAT * self.scale
-        for begin, end in _runs(small):
+        for begin, end in runs(small):
             if end - begin < 2:
                 small[begin : end + 1] = False
         return small
@@ -148,9 +148,3 @@ class Sampled:
         places = 0.5 * (edges[:-1] + edges[1:])[:, None] + half[:, None] * nodes
         values = self.function(places.ravel())[0].reshape(places.shape)
         return float((values @ weights) @ half)
-
-
-def _runs(true: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> list[tuple[int, int]]:
-    """First and last place of every run of true ones."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], true, [False]]).astype(int)))
-    return [(int(begin), int(end) - 1) for begin, end in edges.reshape(-1, 2)]

@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.applied_loads.over_cycle import evaluate
 from linkwright.core.arguments import STEPS, require
-from linkwright.core.arrays import Floats
+from linkwright.core.arrays import Floats, runs
 from linkwright.core.outputs import Output, kind_of, row_name
 from linkwright.core.quantity import shown
 from linkwright.core.search import first_largest
@@ -112,15 +112,13 @@ def contacts_lost(forces: Forces) -> Iterable[Message]:
         pulls = joint.pulls(partial(forces.rows.row, row_name("multiplier", name), forces.evaluate))
         if pulls is None or not pulls.any():
             continue
-        at = np.flatnonzero(pulls)
-        runs = np.split(at, np.flatnonzero(np.diff(at) > 1) + 1)
-        ends = [motion.input[run[[0, -1]]].tolist() for run in runs]
+        ends = [(float(motion.input[first]), float(motion.input[last])) for first, last in runs(pulls)]
         places = tuple(
             _("from {first} to {last} of the input", first=spelled(first, *unit), last=spelled(last, *unit))
             for first, last in ends
         )
-        sizes = np.linalg.norm(forces.reaction(name, on=joint.joined[-1]), axis=1)[at]
-        most, where = float(sizes.max()), float(motion.input[at[first_largest(sizes)]])
+        sizes = np.linalg.norm(forces.reaction(name, on=joint.joined[-1]), axis=1)[pulls]
+        most, where = float(sizes.max()), float(motion.input[pulls][first_largest(sizes)])
         yield _LOST.get(joint.kind, _LOST[""]).format(
             name=name,
             kind=joint.word(),

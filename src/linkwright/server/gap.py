@@ -11,7 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
-from linkwright.core.arrays import Floats
+from linkwright.core.arrays import Floats, runs
 from linkwright.core.outputs import row_name, row_names
 from linkwright.core.quantity import shown
 from linkwright.drivers.base import Driver
@@ -292,9 +292,8 @@ class Gap:
             yield float(self.motion.input[self.drawn])
             return
         good = self.motion.outcome_codes == 0
-        edges = np.flatnonzero(np.diff(np.concatenate([[False], good, [False]]).astype(int)))
-        for low, high in sorted(zip(edges[::2], edges[1::2], strict=True), key=lambda each: each[0] - each[1]):
-            yield float(self.motion.input[(low + high - 1) // 2])
+        for first, last in sorted(runs(good), key=lambda each: each[0] - each[1]):
+            yield float(self.motion.input[(first + last) // 2])
 
     @property
     def input(self) -> float:

@@ -10,7 +10,7 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from linkwright.core.arguments import STEPS, integer, require
-from linkwright.core.arrays import Flags, Floats, largest
+from linkwright.core.arrays import Flags, Floats, largest, runs
 from linkwright.core.attached import PlotMixin
 from linkwright.core.quantity import INFINITE, shown
 from linkwright.core.table import PERCENT, Block, Numbers, Row
@@ -401,13 +401,10 @@ def _short(drive: Drive, found: Torques) -> list[Stretch]:
 
 def _runs(flags: Flags, closed: bool) -> list[list[int]]:
     """Numbers of the positions one after the other for which something holds; round the end of a closed cycle."""
-    at = np.flatnonzero(flags)
-    if not at.size:
-        return []
-    runs = [run.tolist() for run in np.split(at, np.flatnonzero(np.diff(at) > 1) + 1)]
-    if closed and len(runs) > 1 and runs[0][0] == 0 and runs[-1][-1] == len(flags) - 1:
-        runs[0] = runs.pop() + runs[0]
-    return runs
+    found = [[*range(first, last + 1)] for first, last in runs(flags)]
+    if closed and len(found) > 1 and found[0][0] == 0 and found[-1][-1] == len(flags) - 1:
+        found[0] = found.pop() + found[0]
+    return found
 
 
 def _ends(drive: Drive, found: Torques, run: Sequence[int], holds: Callable[[Torques], Flags]) -> tuple[float, float]:

@@ -11,7 +11,7 @@ import numpy as np
 from linkwright.analysis.analysis import Kind
 from linkwright.applied_loads.over_cycle import activity
 from linkwright.applied_loads.phases import Always
-from linkwright.core.arrays import Flags, Floats, largest
+from linkwright.core.arrays import Flags, Floats, largest, runs
 from linkwright.core.outputs import Output
 from linkwright.core.quantity import significant
 from linkwright.core.search import first_largest
@@ -81,9 +81,8 @@ def phase_marks(source: PlotInput, limits: list[LimitMark]) -> list[PhaseMark]:
     found: list[PhaseMark] = []
     x = source.axis.values
     for name, where in acting(source).items():
-        edges = np.diff(np.concatenate([[False], where, [False]]).astype(int))
-        for first, last in zip(np.flatnonzero(edges > 0), np.flatnonzero(edges < 0) - 1, strict=True):
-            ends = (_snapped(x, int(first), limits), _snapped(x, int(last), limits))
+        for first, last in runs(where):
+            ends = (_snapped(x, first, limits), _snapped(x, last, limits))
             found.append(PhaseMark(name, *ends))
     return found
 

@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from linkwright.core.arrays import Floats
+from linkwright.core.arrays import Floats, runs
 from linkwright.errors import LinkwrightError
 from linkwright.events.limit_positions import LimitPosition
 from linkwright.fields.colour import as_rgb
@@ -357,10 +357,10 @@ def usual_seconds(motion: Motion) -> float:
 
 
 def _longest_stretch(ok: np.ndarray) -> tuple[int, int]:
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], ok.astype(int), [0]])))
-    runs = [(int(a), int(b)) for a, b in zip(edges[::2], edges[1::2], strict=True)]
-    if not runs:
+    reached = runs(ok)
+    if not reached:
         raise LinkwrightError(
             _("no position of the motion was reached, so there is nothing to show", code="picture.nothing_reached")
         )
-    return max(runs, key=lambda run: run[1] - run[0])
+    first, last = max(reached, key=lambda run: run[1] - run[0])
+    return first, last + 1
