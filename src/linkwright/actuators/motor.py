@@ -109,8 +109,8 @@ class Motor(AlongCoordinate):
     def torque(self, site: Site, speed: Scalar) -> Scalar:
         """The motor's torque, N·m, at its speed, rad/s, both in the sense in which it drives."""
 
-    def torque_at(self, speed: Floats, time: float = math.inf) -> Floats:
-        """The motor's torque, N·m, at speeds of the motor, rad/s, (n,), at a time, s, by default long after the
+    def torque_at(self, speed: Floats, time: Floats | float = math.inf) -> Floats:
+        """The motor's torque, N·m, at speeds of the motor, rad/s, (n,), and times, s, by default long after the
         start; on the motor's side of the gear, while it acts."""
         site: Any = _AtTime(self, time)
         torque: Any = self.torque(site, cast(Any, speed))
@@ -168,7 +168,7 @@ class Motor(AlongCoordinate):
 class _AtTime:
     """What a motor's torque takes of a site besides the speed: its dimensions, and the time, s."""
 
-    def __init__(self, motor: Motor, time: float) -> None:
+    def __init__(self, motor: Motor, time: Floats | float) -> None:
         self._address, self._dimensions, self.time = f"{motor.section}.{motor.name}.", motor.dimensions(), time
 
     def dimension(self, field: str) -> float:

@@ -24,7 +24,6 @@ from linkwright.dynamics.verdicts.motor_duty import (
     law_duty,
     limits,
     motor_duty,
-    motor_torque,
     rpm,
     transmission,
 )
@@ -298,7 +297,7 @@ class _Task:
         """One motor with one gear."""
         motor = self.placed(listed, gear)
         i, eta = transmission(motor), motor.efficiency or 1.0
-        at_rest = float(motor_torque(motor.at_limit(), np.zeros(1), 0.0)[0])
+        at_rest = float(motor.at_limit().torque_at(np.zeros(1), 0.0)[0])
         margin = i * eta * at_rest / self.needed if self.needed > 0.0 else np.inf
         reason = self._too_fast(motor, listed, i) or self._no_start(motor, margin, i * eta * at_rest)
         if reason is not None or not tried:
@@ -377,7 +376,7 @@ class _Task:
     def _stalls(self, motor: Motor) -> Message | None:
         """That its largest torque at any speed is below the mean that is needed."""
         i, eta = transmission(motor), motor.efficiency or 1.0
-        most = i * eta * float(motor_torque(motor, np.linspace(0.0, i * self.speed, 201)).max())
+        most = i * eta * float(motor.torque_at(np.linspace(0.0, i * self.speed, 201)).max())
         mean = mean_over(self._torques.time, self._resisting)
         if most >= mean:
             return None
@@ -391,7 +390,7 @@ class _Task:
 def _idle(motor: Motor, speed: float) -> float:
     """The speed without load of a motor, rad/s: where its torque ceases below a speed, else infinite."""
     speeds = np.linspace(0.0, speed, 1001)
-    drives = np.flatnonzero(motor_torque(motor, speeds) > 0.0)
+    drives = np.flatnonzero(motor.torque_at(speeds) > 0.0)
     if not drives.size or drives[-1] == len(speeds) - 1:
         return np.inf if drives.size else 0.0
     return float(speeds[drives[-1] + 1])

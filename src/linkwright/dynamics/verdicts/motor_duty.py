@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, ClassVar, Literal, cast
+from typing import ClassVar, Literal
 
 import numpy as np
 
@@ -17,17 +17,11 @@ from linkwright.core.quantity import shown
 from linkwright.core.table import PERCENT, Block, Numbers, Row
 from linkwright.dynamics.result import Run
 from linkwright.dynamics.run import run
-from linkwright.dynamics.verdicts.drive import ALWAYS, Drive, Torques, mean_over
+from linkwright.dynamics.verdicts.drive import Drive, Torques, mean_over
 from linkwright.errors import LinkwrightError, RequestError
-from linkwright.formula.numpy_backend import numpy_program
-from linkwright.formula.program import Program
-from linkwright.formula.trace import Scalar, Trace
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
 from linkwright.words import Message, Translate, _
-
-if TYPE_CHECKING:
-    from linkwright.applied_loads.site import Site
 
 TURN = 2.0 * np.pi
 #: Share of the mean steady speed at which a machine has run up.
@@ -201,26 +195,6 @@ def rpm(speed: float) -> str:
     return f"{speed * 30.0 / np.pi:.4g} rpm"
 
 
-class _Terminals:
-    """What a motor's formula sees where no machine is there: its own numbers, and the time."""
-
-    def __init__(self, motor: Motor, time: Scalar) -> None:
-        self.time, self._motor, self._numbers = time, motor, motor.dimensions()
-
-    def dimension(self, name: str) -> Scalar:
-        return self._numbers[f"{self._motor.section}.{self._motor.name}.{name}"]
-
-
-def motor_torque(motor: Motor, speed: Floats, time: Floats | float = ALWAYS) -> Floats:
-    """The torque of a motor at its own speeds, rad/s, and times, s (long after it was switched on), (n,) N·m."""
-    t = Trace()
-    site = cast("Site", _Terminals(motor, t.position("time")))
-    program = Program.of(t, {"torque": motor.torque(site, t.position("speed"))})
-    given = {"time": time + 0.0 * speed, "speed": speed}
-    inputs = {name: given[name] for name in program.positions}
-    return np.asarray(numpy_program(program).run([], inputs, length=len(speed))[0]) + 0.0 * speed
-
-
 def _the_motor(mechanism: Mechanism, name: str | None) -> Motor:
     motors = {key: each for key, each in mechanism.actuators.items() if isinstance(each, Motor)}
     if name is not None and name not in motors:
@@ -341,7 +315,7 @@ def _last_cycle(found: Run, mechanism: Mechanism, driver: str) -> float:
 def limits(motor: Motor, speed: Floats, rating: Rating) -> Floats:
     """The largest torque at each speed, N·m: of a controlled motor its limit, of another one its peak."""
     if motor.controlled:
-        return np.abs(motor_torque(motor.at_limit(), speed * (1.0 - ROUNDING)))
+        return np.abs(motor.at_limit().torque_at(speed * (1.0 - ROUNDING)))
     return np.full(len(speed), np.inf if rating.peak is None else rating.peak)
 
 
@@ -369,7 +343,7 @@ def _by_run(mechanism: Mechanism, motor: Motor, driver: str, steps: int) -> Moto
     early = sense * found.samples(up).course[driver][1]
     reached = up[int(np.argmax(early >= RUN_UP * mean_over(times, sense * rates)))]
     first = np.linspace(0.0, reached, steps + 1)
-    heating = motor_torque(motor, i * sense * found.samples(first).course[driver][1], first)
+    heating = motor.torque_at(i * sense * found.samples(first).course[driver][1], first)
     return MotorDuty(
         mechanism=mechanism,
         motor=motor,
@@ -377,7 +351,7 @@ def _by_run(mechanism: Mechanism, motor: Motor, driver: str, steps: int) -> Moto
         time=times - begin,
         input=place,
         speed=speed,
-        torque=motor_torque(motor, speed, times),
+        torque=motor.torque_at(speed, times),
         limit=limits(motor, speed, motor.rating),
         rating=motor.rating,
         run_up=float(reached),

@@ -7,7 +7,7 @@ import numpy as np
 from linkwright.core.arrays import Floats
 from linkwright.dynamics.verdicts.drive import Torques, mean_over
 from linkwright.dynamics.verdicts.drive_margin import DriveMargin
-from linkwright.dynamics.verdicts.motor_duty import MotorDuty, limits, motor_torque
+from linkwright.dynamics.verdicts.motor_duty import MotorDuty, limits
 from linkwright.pictures.diagram import COLOURS, FAINT, Figure, new_figure
 from linkwright.plotting.diagrams.axes import InputAxis, Legend, unit_of
 from linkwright.plotting.diagrams.base import Request, framed, result_diagram
@@ -51,7 +51,7 @@ def draw_operating_points(result: MotorDuty, request: Request) -> Figure:
     if result.motor.controlled:
         curves[translate(_("peak torque"))] = limits(result.motor, speed, rating), COLOURS[1], "--"
     else:
-        curves[translate(_("curve of the motor"))] = motor_torque(result.motor, speed), COLOURS[1], "--"
+        curves[translate(_("curve of the motor"))] = result.motor.torque_at(speed), COLOURS[1], "--"
     if rating.continuous is not None:
         curves[translate(_("continuous torque"))] = np.full(_POINTS, rating.continuous), COLOURS[2], "-."
     unit = unit_of("torque", [result.torque, *(each[0] for each in curves.values())])
