@@ -13,6 +13,7 @@ from linkwright.core.arguments import STEPS, integer, require
 from linkwright.core.arrays import Flags, Floats, largest, runs
 from linkwright.core.attached import PlotMixin
 from linkwright.core.quantity import INFINITE, shown
+from linkwright.core.search import edge, lowest
 from linkwright.core.table import PERCENT, Block, Numbers, Row
 from linkwright.dynamics.verdicts.drive import Drive, Torques, mean_over
 from linkwright.mechanism.mechanism import Mechanism
@@ -21,8 +22,9 @@ from linkwright.words import Message, Translate, _
 from linkwright.words.message import together
 
 Kind = Literal["jam", "dead_point", "stall"]
-#: Positions between two neighbours among which ends and worst places are looked for, and how often.
-_BETWEEN, _ROUNDS = 33, 5
+#: Parts of the way between two positions among which the end of a stretch is looked for, and the share of it that
+#: it is found to.
+_PARTS, _NARROW = 32, 32.0**-5
 #: Share of the largest available torque that is none.
 _NO_TORQUE = 1e-9
 #: Square of the sine of a transmission angle below which a position counts as a dead point: 2.6°.
@@ -409,22 +411,19 @@ def _runs(flags: Flags, closed: bool) -> list[list[int]]:
 
 def _ends(drive: Drive, found: Torques, run: Sequence[int], holds: Callable[[Torques], Flags]) -> tuple[float, float]:
     """The input where something begins and ceases to hold, refined between the positions."""
-    count = len(found.time)
-    if len(run) == count:
+    if len(run) == len(found.time):
         return float(found.input[0]), float(found.input[-1])
+
+    def still(times: Floats) -> Flags:
+        torques = drive.starting(times)
+        return holds(torques) if len(torques.time) == len(times) else np.zeros(len(times), dtype=bool)
+
     ends = []
     for place, step in ((run[0], -1), (run[-1], 1)):
-        inside, outside = found.time[place], _neighbour(drive, found, place, step)
-        at = float(found.input[place])
-        for _round in range(_ROUNDS if outside is not None else 0):
-            assert outside is not None
-            torques = drive.starting(np.linspace(inside, outside, _BETWEEN))
-            if len(torques.time) < _BETWEEN or not holds(torques)[0]:
-                break
-            last = int(np.flatnonzero(np.cumprod(holds(torques)))[-1])
-            at = float(torques.input[last])
-            inside, outside = torques.time[last], torques.time[min(last + 1, _BETWEEN - 1)]
-        ends.append(at)
+        inside, outside = float(found.time[place]), _neighbour(drive, found, place, step)
+        if outside is not None:
+            inside = edge(still, inside, outside, _NARROW * abs(outside - inside), _PARTS)[0]
+        ends.append(float(drive.course(np.array([inside]))[0].places[drive.name][0]))
     return ends[0], ends[1]
 
 
@@ -446,23 +445,18 @@ def _lowest(
     values = value(found)
     places = range(len(values)) if among is None else among
     place = min(places, key=lambda each: values[each])
-    best = _at(found, place)
     if not np.isfinite(values[place]):
-        return best
+        return _at(found, place)
+
+    def between(times: Floats) -> Floats:
+        torques = drive.starting(times[0])
+        reached = len(torques.time) == times.shape[1]
+        return value(torques)[None] if reached else np.full(times.shape, np.inf)
+
+    start = found.time[place]
     low, high = (_neighbour(drive, found, place, step) for step in (-1, 1))
-    start = float(found.time[place])
-    bounds = (start if low is None else low, start if high is None else high)
-    for _round in range(_ROUNDS):
-        torques = drive.starting(np.linspace(*bounds, _BETWEEN))
-        if len(torques.time) < _BETWEEN:
-            break
-        known = value(torques)
-        at = int(np.argmin(known))
-        if not known[at] < value(best)[0]:
-            break
-        best = _at(torques, at)
-        bounds = (float(torques.time[max(at - 1, 0)]), float(torques.time[min(at + 1, _BETWEEN - 1)]))
-    return best
+    time, least = lowest(between, *(np.array([start if end is None else end]) for end in (low, high)))
+    return drive.starting(time) if least[0] < values[place] else _at(found, place)
 
 
 def _at(torques: Torques, place: int) -> Torques:
