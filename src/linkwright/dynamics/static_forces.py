@@ -12,7 +12,7 @@ from linkwright.core.arrays import Floats
 from linkwright.core.inputs import Input
 from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.stops import contact_name
-from linkwright.dynamics.switches import gap_name, switch_name
+from linkwright.dynamics.switches import agreeing, gap_name
 from linkwright.formula.differentiation import Slopes
 from linkwright.formula.linear_algebra import ZERO, Vec
 from linkwright.formula.numpy_backend import numpy_program
@@ -24,8 +24,6 @@ from linkwright.mechanism.mechanism import Mechanism
 
 #: Rate, rad/s or m/s, that tells the sense in which a machine at rest begins to move.
 CREEP = 1e-9
-#: Passes in which comparisons are found that hang on others as well.
-PASSES = 3
 #: Before the name of a link whose weight is meant, among the names of loads.
 WEIGHT = "weight of "
 
@@ -106,19 +104,10 @@ class StaticForces:
         return np.asarray(sum(found) / len(found))
 
     def _switches(self, q: Floats, sense: int) -> dict[str, Floats]:
-        count = len(self.equation.switches.lines)
-        if not count:
-            return {}
-        gaps = tuple(gap_name(number) for number in range(count))
+        switches = self.equation.switches.names
+        names = tuple(gap_name(number) for number in range(len(switches)))
         rates: dict[str, Floats] = {f"qd:{name}": np.full(q.shape[1], CREEP * sense) for name in self.free}
-        held: dict[str, Floats] = {}
-        for _again in range(PASSES):
-            found = self._run(self._program(gaps), q, {**rates, **held})
-            again = {switch_name(number): (row > 0.0).astype(float) for number, row in enumerate(found)}
-            if held and all(np.array_equal(held[name], row) for name, row in again.items()):
-                break
-            held = again
-        return held
+        return agreeing(lambda held: self._run(self._program(names), q, {**rates, **held}), switches, q.shape[1])
 
     def _run(self, program: Program, q: Floats, more: Mapping[str, Floats]) -> Floats:
         given: dict[str, Floats | float] = {f"q:{name}": row for name, row in zip(self.free, q, strict=True)}

@@ -5,12 +5,18 @@ A right-hand side in which they are inputs is smooth, and their gaps tell where 
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Mapping
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
+from linkwright.core.arrays import Floats
 from linkwright.formula.program import Program
 from linkwright.formula.replay import Replay
 from linkwright.formula.trace import Scalar, Trace
+
+#: Rounds in which comparisons that go by forces which go by comparisons come to agree.
+ROUNDS = 12
 
 
 def switch_name(number: int) -> str:
@@ -63,6 +69,20 @@ class Switches:
         order = self.trace.needed([self.trace.lift(value) for value in outputs.values()])
         number = {line: number for number, line in enumerate(self.lines)}
         return Program.of(self.trace, outputs), {k: number[line] for k, line in enumerate(order) if line in number}
+
+
+def agreeing(
+    gaps: Callable[[Mapping[str, Floats]], Floats], switches: Sequence[str], count: int
+) -> dict[str, Floats]:
+    """The comparisons, 1 or 0 at ``count`` positions, that agree with their ``gaps`` (switches, count), which go by
+    forces that may go by comparisons."""
+    held: dict[str, Floats] = dict.fromkeys(switches, np.zeros(count))
+    for _round in range(ROUNDS if switches else 0):
+        again = {name: (row > 0.0).astype(float) for name, row in zip(switches, gaps(held), strict=True)}
+        if all(np.array_equal(again[name], held[name]) for name in switches):
+            break
+        held = again
+    return held
 
 
 class Held(Replay):

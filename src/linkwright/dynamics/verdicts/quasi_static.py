@@ -12,7 +12,7 @@ from linkwright.core.arrays import Flags, Floats
 from linkwright.core.inputs import Input
 from linkwright.core.outputs import row_name
 from linkwright.dynamics.equation import EquationOfMotion
-from linkwright.dynamics.switches import gap_name
+from linkwright.dynamics.switches import agreeing, gap_name
 from linkwright.formula.program import Program
 from linkwright.formula.trace import Scalar
 from linkwright.kinematics.motion import Motion
@@ -20,8 +20,6 @@ from linkwright.mechanism.mechanism import Mechanism
 
 #: Share of its speed at which an input at the verge of motion is thought to move, so that friction has its sense.
 CREEPING = 1e-9
-#: Rounds in which comparisons that go by forces which go by comparisons come to agree.
-_ROUNDS = 12
 
 
 @dataclass(frozen=True)
@@ -124,16 +122,12 @@ class QuasiStatic:
 
     def _held(self, course: Course, time: float = 0.0) -> dict[str, Floats]:
         """The comparisons by which forces switch, 1 or 0, in agreement with each other."""
-        names = self.equation.switches.names
-        held: dict[str, Floats] = dict.fromkeys(names, np.zeros(course.count))
-        for _round in range(_ROUNDS if names else 0):
+
+        def gaps(held: Mapping[str, Floats]) -> Floats:
             with np.errstate(all="ignore"):
-                gaps = self.equation.run(self._gaps, {**course.inputs(), **held, "time": time}, course.count)
-            again = {name: (row > 0.0).astype(float) for name, row in zip(names, gaps, strict=True)}
-            if all(np.array_equal(again[name], held[name]) for name in names):
-                break
-            held = again
-        return held
+                return self.equation.run(self._gaps, {**course.inputs(), **held, "time": time}, course.count)
+
+        return agreeing(gaps, self.equation.switches.names, course.count)
 
     def _evaluate(self, course: Course, held: Mapping[str, Floats], time: float = 0.0) -> Efforts:
         program, names = self._program, self.equation.names
