@@ -10,10 +10,10 @@ import numpy as np
 from linkwright.actuators.base import Actuator
 from linkwright.core.arrays import Floats, largest
 from linkwright.drivers.constant_speed import ConstantSpeed
-from linkwright.dynamics.verdicts.quasi_static import Course, QuasiStatic
+from linkwright.dynamics.verdicts.quasi_static import Course, Efforts, QuasiStatic
 from linkwright.errors import RequestError
+from linkwright.kinematics.cycle import over_cycle
 from linkwright.kinematics.input_range import input_range
-from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.cycle import Cycle
 from linkwright.mechanism.mechanism import Mechanism
@@ -66,12 +66,13 @@ class Drive:
         self.source = mechanism
         self.name = _driver(mechanism, driver)
         self.rotary = mechanism.drivers[self.name].law.rotary
-        self.dimension = "torque" if self.rotary else "force"
-        self.input_dimension = "angle" if self.rotary else "length"
         self.prescribed = all(each.law.prescribed for each in mechanism.drivers.values())
         self.mechanism = mechanism if self.prescribed else _at_constant_speed(mechanism)
         self.driven = any(each.drives for each in mechanism.actuators.values())
-        self._load = QuasiStatic(replace(mechanism, actuators=resisting(mechanism)))
+
+    @cached_property
+    def _load(self) -> QuasiStatic:
+        return QuasiStatic(replace(self.source, actuators=resisting(self.source)))
 
     @cached_property
     def _all(self) -> QuasiStatic:
@@ -89,11 +90,7 @@ class Drive:
     @property
     def period(self) -> float | None:
         """Time after which the cycle repeats, s; None of one that does not."""
-        return self._first.positions.period if self._first.positions.closed else None
-
-    @cached_property
-    def _first(self) -> Motion:
-        return solve_motion(self.mechanism, steps=2, failures="mark")
+        return over_cycle(self.mechanism, 1).period
 
     @property
     def speed(self) -> float | None:
@@ -114,33 +111,30 @@ class Drive:
         load = self._load.starting(course, senses)
         net = self._all.starting(course, senses) if self.driven else load
         back = self._off.starting(course, {**senses, self.name: -sense})
-        name = self.name
-        return Torques(
-            time=reached,
-            input=course.places[name],
-            rate=sense * course.rates[name],
-            second=sense * course.seconds[name],
-            needed=sense * load.effort[name],
-            available=sense * (load.effort[name] - net.effort[name]),
-            ideal=sense * load.ideal[name],
-            returning=sense * back.effort[name],
-        )
+        return self._torques(course, reached, sense, load, net, sense * back.effort[self.name])
 
     def running(self, times: Floats) -> Torques:
         """At the speeds and accelerations of the cycle; inertia of actuators counts against what they supply."""
         course, reached = self.course(times)
-        sense, name = _senses(course.rates[self.name]), self.name
+        sense = _senses(course.rates[self.name])
         load = self._load.running(course, ALWAYS)
         net = self._all.running(course, ALWAYS) if self.driven else load
+        return self._torques(course, reached, sense, load, net, np.full(course.count, np.nan))
+
+    def _torques(
+        self, course: Course, time: Floats, sense: Floats, load: Efforts, net: Efforts, returning: Floats
+    ) -> Torques:
+        """Of what the driver must supply without what drives the machine (``load``) and with it (``net``)."""
+        name = self.name
         return Torques(
-            time=reached,
+            time=time,
             input=course.places[name],
             rate=sense * course.rates[name],
             second=sense * course.seconds[name],
             needed=sense * load.effort[name],
             available=sense * (load.effort[name] - net.effort[name]),
             ideal=sense * load.ideal[name],
-            returning=np.full(course.count, np.nan),
+            returning=returning,
         )
 
     def quality(self, times: Floats) -> Floats:
