@@ -17,13 +17,14 @@ MEAN, PEAK = Summary("power", "mean"), Summary("power", "peak")
 
 
 class EffortMetric(Metric):
-    """What every driver must supply, by one ``kind`` of summary of its effort over the cycle."""
+    """What every driver must supply, by one ``kind`` of summary of its ``output`` over the cycle."""
 
     dimension = "torque"
     source = "kinetostatics: effort of the driver from the joint forces"
     better: ClassVar[Better | None] = "lower"
     needs_forces = True
     rank = 3
+    output: ClassVar[str] = "effort"
     kind: ClassVar[str]
 
     def suits(self, analysis: Analysis) -> bool:
@@ -31,7 +32,8 @@ class EffortMetric(Metric):
 
     def numbers(self, analysis: Analysis) -> Iterator[Number]:
         for name, turns in analysis.motion.positions.rotary.items():
-            yield Number(name, (Summary(f"{name}.effort", self.kind),), dimension="torque" if turns else "force")
+            summary = Summary(f"{name}.{self.output}", self.kind)
+            yield Number(name, (summary,), dimension="torque" if turns else "force")
 
 
 @METRICS.register("peak_input_torque")

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import ClassVar
 
-from linkwright.analysis.analysis import Analysis
-from linkwright.analysis.base import METRICS, Number
+from linkwright.analysis.base import METRICS
 from linkwright.analysis.effort import EffortMetric
-from linkwright.cycle.summaries import Summary
 from linkwright.words import Message, _
 
 
@@ -18,11 +16,7 @@ class HoldingMetric(EffortMetric):
 
     source = "statics: effort of the driver from the joint forces at zero speed"
     on_request = True
-
-    def numbers(self, analysis: Analysis) -> Iterator[Number]:
-        for name, turns in analysis.motion.positions.rotary.items():
-            summary = Summary(f"{name}.holding_effort", self.kind)
-            yield Number(name, (summary,), dimension="torque" if turns else "force")
+    output: ClassVar[str] = "holding_effort"
 
 
 @METRICS.register("holding_torque")
