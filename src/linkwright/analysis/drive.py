@@ -9,9 +9,9 @@ from typing import Any, ClassVar
 from linkwright.actuators.motor import Motor
 from linkwright.analysis.analysis import Analysis
 from linkwright.analysis.base import METRICS, Better, Metric, MetricValue
-from linkwright.dynamics.verdicts.braking import braking
-from linkwright.dynamics.verdicts.drive_margin import drive_margin
-from linkwright.dynamics.verdicts.motor_duty import motor_duty
+from linkwright.dynamics.verdicts.braking import Braking, braking
+from linkwright.dynamics.verdicts.drive_margin import DriveMargin, drive_margin
+from linkwright.dynamics.verdicts.motor_duty import MotorDuty, motor_duty
 from linkwright.errors import LinkwrightError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _
@@ -39,14 +39,14 @@ class DriveMetric(Metric):
         found = self._found(analysis)
         if isinstance(found, LinkwrightError):
             raise found
-        value, at = found
+        value, at = self.measured(found)
         yield self.value(analysis, next(iter(analysis.motion.mechanism.drivers)), value, at=at)
 
     def _found(self, analysis: Analysis) -> Any:
-        """Value and place, or why there is none; found once."""
-        key = ("drive", self.name)
+        """What is found of the machine, or why there is none; once for all metrics that ask the same."""
+        key = ("drive", self.verdict.__qualname__)
         if key not in analysis.cached:
-            analysis.cached[key] = _tried(self.measured, analysis.motion.mechanism)
+            analysis.cached[key] = _tried(self.verdict, analysis.motion.mechanism)
         return analysis.cached[key]
 
     @abstractmethod
@@ -54,13 +54,17 @@ class DriveMetric(Metric):
         """Whether a machine has what the number is about."""
 
     @abstractmethod
-    def measured(self, mechanism: Mechanism) -> tuple[float, float | None]:
+    def verdict(self, mechanism: Mechanism) -> Any:
+        """The verdict that the number is part of."""
+
+    @abstractmethod
+    def measured(self, found: Any) -> tuple[float, float | None]:
         """Value, SI, and the input where it is."""
 
 
-def _tried(measured: Callable[[Mechanism], Any], mechanism: Mechanism) -> Any:
+def _tried(verdict: Callable[[Mechanism], Any], mechanism: Mechanism) -> Any:
     try:
-        return measured(mechanism)
+        return verdict(mechanism)
     except LinkwrightError as error:
         return error
 
@@ -80,8 +84,10 @@ class StartingMargin(DriveMetric):
     def has(self, mechanism: Mechanism) -> bool:
         return any(each.drives for each in mechanism.actuators.values())
 
-    def measured(self, mechanism: Mechanism) -> tuple[float, float | None]:
-        found = drive_margin(mechanism, steps=STEPS)
+    def verdict(self, mechanism: Mechanism) -> DriveMargin:
+        return drive_margin(mechanism, steps=STEPS)
+
+    def measured(self, found: DriveMargin) -> tuple[float, float | None]:
         return found.starting_margin, float(found.worst.input[0])
 
 
@@ -99,10 +105,12 @@ class RunUpTime(DriveMetric):
     def has(self, mechanism: Mechanism) -> bool:
         return sum(isinstance(each, Motor) for each in mechanism.actuators.values()) == 1
 
-    def measured(self, mechanism: Mechanism) -> tuple[float, float | None]:
-        found = motor_duty(mechanism, by="run", steps=STEPS).run_up
-        assert found is not None
-        return found, None
+    def verdict(self, mechanism: Mechanism) -> MotorDuty:
+        return motor_duty(mechanism, by="run", steps=STEPS)
+
+    def measured(self, found: MotorDuty) -> tuple[float, float | None]:
+        assert found.run_up is not None
+        return found.run_up, None
 
 
 class BrakingMetric(DriveMetric):
@@ -114,6 +122,9 @@ class BrakingMetric(DriveMetric):
     def has(self, mechanism: Mechanism) -> bool:
         return any(each.brakes for each in mechanism.actuators.values())
 
+    def verdict(self, mechanism: Mechanism) -> Braking:
+        return braking(mechanism)
+
 
 @METRICS.register("braking_time")
 class BrakingTime(BrakingMetric):
@@ -124,8 +135,7 @@ class BrakingTime(BrakingMetric):
 
     dimension = "time"
 
-    def measured(self, mechanism: Mechanism) -> tuple[float, float | None]:
-        found = braking(mechanism)
+    def measured(self, found: Braking) -> tuple[float, float | None]:
         return found.longest, float(found.begin[int(found.time.argmax())])
 
 
@@ -141,6 +151,5 @@ class BrakingAngle(BrakingMetric):
     def has(self, mechanism: Mechanism) -> bool:
         return super().has(mechanism) and next(iter(mechanism.drivers.values())).law.rotary
 
-    def measured(self, mechanism: Mechanism) -> tuple[float, float | None]:
-        found = braking(mechanism)
+    def measured(self, found: Braking) -> tuple[float, float | None]:
         return found.farthest, float(found.begin[int(found.way.argmax())])
