@@ -17,8 +17,7 @@ from linkwright.dynamics.step_kernels import (
     STATES,
     TIME,
     WATCHED,
-    evaluate,
-    within,
+    look_within,
 )
 from linkwright.formula.kernel import Reals, Wholes, fabs, load, spread
 
@@ -58,6 +57,14 @@ LOOKS = 120
 def crossed(side: float, value: float) -> int:
     """Whether an event's function has left its side."""
     return 1 if fabs(side) == 1.0 and side * value < 0.0 else 0
+
+
+def take_value(plan: Wholes, record: Reals, gaps: Reals, e: int, value: float, at: int) -> None:
+    """The value of an event's function where a step begins; its side, where none is known yet."""
+    sides = record + (HEAD + plan[STATES])
+    gaps[e * 8 + at] = value
+    if sides[e] == UNKNOWN and value != 0.0:
+        sides[e] = 1.0 if value > 0.0 else -1.0
 
 
 def watch(plan: Wholes, record: Reals, values: Reals, at: int) -> None:
@@ -148,8 +155,7 @@ def search(
     for part in range(1, parts + 1):
         share = float(part) / float(parts)
         if part < parts:
-            within(y, dense, spread(share), probe, plan[STATES])
-            evaluate(code, block, x, out, plan, lane, probe, spread(share))
+            look_within(code, block, x, out, plan, lane, y, probe, dense, spread(share))
         for at in range(8):
             if lane[HOLDS * 8 + at] > 0.0 and lane[FOUND * 8 + at] == 0.0:
                 record = records + whose[at] * size
@@ -193,16 +199,14 @@ def locate(
                 next_look(plan, records + whose[at] * size, lane, gaps, at)
                 busy += 1
         if busy > 0:
-            within(y, dense, load(lane, LOOK * 8), probe, plan[STATES])
-            evaluate(code, block, x, out, plan, lane, probe, load(lane, LOOK * 8))
+            look_within(code, block, x, out, plan, lane, y, probe, dense, load(lane, LOOK * 8))
             for at in range(8):
                 if lane[FOUND * 8 + at] == 1.0:
                     narrow(plan, records + whose[at] * size, lane, out, gaps, at)
         looks += 1
     for at in range(8):
         lane[LOOK * 8 + at] = lane[HIGH * 8 + at] - APART if lane[FOUND * 8 + at] > 0.0 else 1.0
-    within(y, dense, load(lane, LOOK * 8), probe, plan[STATES])
-    evaluate(code, block, x, out, plan, lane, probe, load(lane, LOOK * 8))
+    look_within(code, block, x, out, plan, lane, y, probe, dense, load(lane, LOOK * 8))
     for at in range(8):
         if lane[FOUND * 8 + at] > 0.0:
             which = int(lane[WHICH * 8 + at])
@@ -249,4 +253,4 @@ def take_events(plan: Wholes, record: Reals, lane: Reals, x: Reals, gaps: Reals,
     return outcome
 
 
-EVENT_KERNELS = (crossed, watch, look_for, next_look, narrow, search, locate, correct, take_events)
+EVENT_KERNELS = (crossed, take_value, watch, look_for, next_look, narrow, search, locate, correct, take_events)

@@ -25,12 +25,12 @@ from linkwright.dynamics.event_kernels import (
     TOO_MANY,
     TOO_SMALL,
     TRIED,
-    UNKNOWN,
     UNTIL,
     correct,
     locate,
     search,
     take_events,
+    take_value,
     watch,
 )
 from linkwright.dynamics.step_kernels import (
@@ -55,6 +55,7 @@ from linkwright.dynamics.step_kernels import (
     THIRD,
     TIME,
     WATCHED,
+    carried_row,
     find_errors,
     find_polynomial,
     find_slopes,
@@ -123,17 +124,13 @@ def start_anew(
     plan: Wholes, record: Reals, settings: Reals, lane: Reals, y: Reals, k: Reals, out: Reals, gaps: Reals, at: int
 ) -> int:
     """Whether a motion can go on from where it is: first values of events and watched outputs, length of a step."""
-    n, events = plan[FREEDOMS], plan[EVENTS]
-    sides, size = record + (HEAD + plan[STATES]), 0.0
+    n, events, size = plan[FREEDOMS], plan[EVENTS], 0.0
     for i in range(n + 1):
         size += fabs(k[(n + i) * 8 + at])
     if size < 1e300:
         for e in range(events):
-            value = out[(n + 1 + e) * 8 + at]
-            gaps[e * 8 + at] = value
-            if sides[e] == UNKNOWN and value != 0.0:
-                sides[e] = 1.0 if value > 0.0 else -1.0
-        watch(plan, record, out + (plan[FREEDOMS] + 1 + events) * 8, at)
+            take_value(plan, record, gaps, e, out[(n + 1 + e) * 8 + at], at)
+        watch(plan, record, out + (n + 1 + events) * 8, at)
         if lane[NEXT * 8 + at] <= 0.0:
             lane[NEXT * 8 + at] = first_length(plan, settings, lane, y, k, at)
         lane[ANEW * 8 + at] = 0.0
@@ -209,8 +206,8 @@ def move(
     plan: Wholes, record: Reals, lane: Reals, y: Reals, trial: Reals, k: Reals, gaps: Reals, x: Reals, at: int
 ) -> None:
     """A lane to the end of its step."""
-    states, count = plan[STATES], plan[CARRIED]
-    row, carried = 2 * plan[FREEDOMS] + 1 + plan[INPUTS] - count, gaps + 8 * (4 * plan[EVENTS] + plan[WATCHED])
+    states, events, count = plan[STATES], plan[EVENTS], plan[CARRIED]
+    row, carried = carried_row(plan), gaps + 8 * (4 * events + plan[WATCHED])
     for i in range(count):
         value = carried[(count + i) * 8 + at]
         carried[i * 8 + at] = value
@@ -222,12 +219,8 @@ def move(
     for i in range(states):
         y[i * 8 + at] = trial[i * 8 + at]
         k[i * 8 + at] = k[(STAGES * states + i) * 8 + at]
-    sides = record + (HEAD + states)
-    for e in range(plan[EVENTS]):
-        value = gaps[(plan[EVENTS] + e) * 8 + at]
-        gaps[e * 8 + at] = value
-        if sides[e] == UNKNOWN and value != 0.0:
-            sides[e] = 1.0 if value > 0.0 else -1.0
+    for e in range(events):
+        take_value(plan, record, gaps, e, gaps[(events + e) * 8 + at], at)
     record[COUNT] = record[COUNT] + 1.0
 
 
@@ -280,7 +273,7 @@ def run(
                 if whose[at] >= 0 and lane[ANEW * 8 + at] > 0.0:
                     record = records + whose[at] * size
                     for i in range(plan[CARRIED]):
-                        carried[i * 8 + at] = x[(2 * plan[FREEDOMS] + 1 + plan[INPUTS] - plan[CARRIED] + i) * 8 + at]
+                        carried[i * 8 + at] = x[(carried_row(plan) + i) * 8 + at]
                     if start_anew(plan, record, settings, lane, y, k, out, gaps, at) == 0:
                         finish(plan, record, lane, y, x, at, NO_START)
                         whose[at] = -1

@@ -28,6 +28,11 @@ CLOSED = 1e-10
 RELATIVE, MOST, ABSOLUTE = 0, 1, 2
 
 
+def carried_row(plan: Wholes) -> int:
+    """The first of the inputs that are carried from step to step."""
+    return 2 * plan[FREEDOMS] + 1 + plan[INPUTS] - plan[CARRIED]
+
+
 def combine(y: Reals, k: Reals, weights: Reals, lane: Reals, to: Reals, states: int, count: int) -> None:
     """y and h times the weighted slopes."""
     h = load(lane, LENGTH * 8)
@@ -43,7 +48,7 @@ def close(code: int, block: Wholes, x: Reals, out: Reals, plan: Wholes) -> None:
     """Newton's steps of groups without closed form go on from what they found; accelerations are NaN where they do
     not come to rest."""
     n, carried = plan[FREEDOMS], plan[CARRIED]
-    first, row = n + 1 + plan[EVENTS] + plan[WATCHED], 2 * n + 1 + plan[INPUTS] - carried
+    first, row = n + 1 + plan[EVENTS] + plan[WATCHED], carried_row(plan)
     missed = spread(0.0)
     for again in range(2):
         for i in range(carried):
@@ -100,7 +105,7 @@ def step(
     carried: Reals,
 ) -> None:
     """The states after the step in ``trial``, from the first slopes; ``carried``: where Newton's steps begin."""
-    states, row = plan[STATES], 2 * plan[FREEDOMS] + 1 + plan[INPUTS] - plan[CARRIED]
+    states, row = plan[STATES], carried_row(plan)
     for i in range(plan[CARRIED]):
         store(x, (row + i) * 8, load(carried, i * 8))
     for s in range(1, STAGES):
@@ -160,15 +165,27 @@ def find_polynomial(
             store(dense, ((3 + r) * states + i) * 8, h * added)
 
 
-def within(y: Reals, dense: Reals, share: Vector, to: Reals, states: int) -> None:
-    """The states at shares of the step."""
-    rest = 1.0 - share
+def look_within(
+    code: int,
+    block: Wholes,
+    x: Reals,
+    out: Reals,
+    plan: Wholes,
+    lane: Reals,
+    y: Reals,
+    probe: Reals,
+    dense: Reals,
+    share: Vector,
+) -> None:
+    """The outputs at shares of the step, of the states on its polynomial."""
+    states, rest = plan[STATES], 1.0 - share
     for i in range(states):
         value = spread(0.0)
         for r in range(COEFFICIENTS):
             value += load(dense, ((COEFFICIENTS - 1 - r) * states + i) * 8)
             value = value * (share if r % 2 == 0 else rest)
-        store(to, i * 8, load(y, i * 8) + value)
+        store(probe, i * 8, load(y, i * 8) + value)
+    evaluate(code, block, x, out, plan, lane, probe, share)
 
 
-STEP_KERNELS = (combine, close, evaluate, find_slopes, step, find_errors, find_polynomial, within)
+STEP_KERNELS = (carried_row, combine, close, evaluate, find_slopes, step, find_errors, find_polynomial, look_within)
