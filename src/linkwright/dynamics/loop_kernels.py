@@ -211,5 +211,4 @@ def run(
 @cache
 def kernels() -> Kernels:
     """The module of these."""
-    functions = (*STEP_KERNELS, *EVENT_KERNELS, *LANE_KERNELS, start_all, end_steps, run)
-    return Kernels(functions, apart=functions)
+    return Kernels((*STEP_KERNELS, *EVENT_KERNELS, *LANE_KERNELS, start_all, end_steps, run), apart=True)

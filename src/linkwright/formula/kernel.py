@@ -170,12 +170,12 @@ class Kernels:
     """Functions of one module; the later ones may call the earlier ones.
 
     ``kernels(name, *arguments)`` calls one: arrays are given by their address (``array.ctypes.data``). The lock of
-    the interpreter lock is released while a kernel runs. ``apart``: those that are not copied into their callers,
-    which takes long to compile where large ones are called in many places.
+    the interpreter lock is released while a kernel runs. ``apart``: they are not copied into their callers, which
+    takes long to compile where large ones are called in many places.
     """
 
-    def __init__(self, functions: Sequence[Callable[..., Any]], apart: Sequence[Callable[..., Any]] = ()) -> None:
-        self._apart = {each.__name__ for each in apart}
+    def __init__(self, functions: Sequence[Callable[..., Any]], apart: bool = False) -> None:
+        self._apart = apart
         self.functions = {each.__name__: each for each in functions}
         self.trees = {name: _tree(each) for name, each in self.functions.items()}
         self._called: dict[str, Any] = {}
@@ -201,7 +201,7 @@ class Kernels:
                     code="synthesize.no_llvmlite",
                 )
             )
-        digest = hashlib.blake2b(repr(sorted(self._apart)).encode(), digest_size=16)
+        digest = hashlib.blake2b(b"apart" if self._apart else b"", digest_size=16)
         for name, tree in self.trees.items():
             digest.update(ast.dump(tree).encode())
             digest.update(repr(sorted(_constants(tree, self.functions[name]).items())).encode())
@@ -214,7 +214,7 @@ class Kernels:
         made: dict[str, Any] = {}
         for name, tree in self.trees.items():
             made[name] = KernelWriter(module, made, _constants(tree, self.functions[name])).function(tree)
-            if name in self._apart:
+            if self._apart:
                 made[name].attributes.add("noinline")
         return machine_code.optimised(str(module))
 
