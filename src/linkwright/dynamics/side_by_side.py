@@ -132,15 +132,14 @@ class SideBySide:
     def run(self, columns: Mapping[str, Floats], starts: Starts, tolerance: float, threads: int) -> Ends:
         """All designs, ``columns`` (designs,) by address."""
         motions = self._motions(columns, starts)
-        given = {name: motions.inputs[:, place] for place, name in enumerate(self.layout.all_inputs)}
-        self._close(motions, given)
-        undecided = self._take_sides(motions, given) | self._begins_singular(motions, given)
-        before = self._kinetic(motions, given)
+        self._close(motions)
+        undecided = self._take_sides(motions) | self._begins_singular(motions)
+        before = self._kinetic(motions)
         met = self._advance(motions, starts, tolerance, threads, ~undecided)
         outcomes = motions.outcomes
         undecided |= np.array([each is Outcome.RETURNED for each in outcomes], dtype=np.bool_)
         undecided |= self._singular(motions)
-        return self._ends(motions, before, self._kinetic(motions, given), met, undecided)
+        return self._ends(motions, before, self._kinetic(motions), met, undecided)
 
     def _singular(self, motions: Motions) -> Flags:
         """Designs that have come near to a singular position, which runs by themselves go through."""
@@ -148,12 +147,12 @@ class SideBySide:
             return np.zeros(len(motions.records), dtype=np.bool_)
         return np.isfinite(motions.times[:, -3])
 
-    def _begins_singular(self, motions: Motions, inputs: Mapping[str, Floats]) -> Flags:
+    def _begins_singular(self, motions: Motions) -> Flags:
         """Designs that begin there."""
         names, count = [f"closure:{group}" for group in self.equation.groups], len(motions.records)
         if not names:
             return np.zeros(count, dtype=np.bool_)
-        least = self.equation.evaluate(names, self._given(motions, inputs), count).min(axis=0)
+        least = self.equation.evaluate(names, self._given(motions), count).min(axis=0)
         return np.asarray(least <= NEARLY_SINGULAR)
 
     def _motions(self, columns: Mapping[str, Floats], starts: Starts) -> Motions:
@@ -161,8 +160,9 @@ class SideBySide:
         motions = self.loop.start(count)
         motions.state[:, :n], motions.state[:, n : 2 * n] = starts.coordinates, starts.rates
         motions.until[:] = starts.until
-        inputs = dict(zip(self.layout.all_inputs, motions.inputs.T, strict=True))
-        for name, column in {**self.equation.states, **columns}.items():
+        inputs = self._given(motions)
+        begin: dict[str, Floats | float] = {**self.equation.states, **columns}
+        for name, column in begin.items():
             inputs[name][:] = column
         turns = np.ones(count) if starts.steady else starts.turns
         inputs[BEGIN][:], inputs[TURN][:] = starts.coordinates[:, 0], 2.0 * np.pi * np.nan_to_num(turns)
@@ -171,14 +171,13 @@ class SideBySide:
         motions.sides[:, -1] = np.where(np.isnan(starts.speed), 0.0, np.sign(starts.rates[:, 0] - starts.speed))
         return motions
 
-    def _close(self, motions: Motions, inputs: Mapping[str, Floats]) -> None:
+    def _close(self, motions: Motions) -> None:
         """Newton's steps of groups without closed form at the starts."""
-        names = list(self.equation.states)
+        names, given = list(self.equation.states), self._given(motions)
         for _step in range(CLOSING_STEPS if names else 0):
-            given = self._given(motions, inputs)
             found = self.equation.evaluate([f"next:{name}" for name in names], given, len(motions.records))
             for name, row in zip(names, found, strict=True):
-                inputs[name][:] = row
+                given[name][:] = row
 
     def _advance(self, motions: Motions, starts: Starts, tolerance: float, threads: int, active: Flags) -> Flags:
         """To the ends; with ``steady`` turn by turn. Whether the turns are made, or two are equal."""
@@ -206,24 +205,23 @@ class SideBySide:
         equation, n = self.equation, len(self.equation.free)
         ways = np.array([1.0 if equation.rotary[name] else equation.mechanism.size for name in equation.free])
         names = [*(f"qdd:{name}" for name in equation.free), *(f"M:{name}:{name}" for name in equation.free)]
-        given = self._given(motions, dict(zip(self.layout.all_inputs, motions.inputs.T, strict=True)))
-        found = np.abs(equation.evaluate(names, given, len(motions.records)))
+        found = np.abs(equation.evaluate(names, self._given(motions), len(motions.records)))
         found = np.where(np.isfinite(found), found, 0.0)
         rates = np.maximum(np.abs(motions.state[:, n : 2 * n]).T, np.sqrt(found[:n] * ways[:, None])).max(axis=1)
         rates[rates == 0.0] = 1.0
         energy = 0.5 * float(rates**2 @ found[n:].max(axis=1))
         return np.array([*ways, *rates, energy or 1.0])
 
-    def _given(self, motions: Motions, inputs: Mapping[str, Floats]) -> dict[str, Floats]:
-        """Inputs of the equation of motion at the states."""
-        given = {**inputs, "time": motions.time}
+    def _given(self, motions: Motions) -> dict[str, Floats]:
+        """Inputs of the equation of motion at the states, where they lie in the motions."""
+        given = {**dict(zip(self.layout.all_inputs, motions.inputs.T, strict=True)), "time": motions.time}
         for place, name in enumerate(self.equation.free):
             given[f"q:{name}"] = motions.state[:, place]
             given[f"qd:{name}"] = motions.state[:, len(self.equation.free) + place]
         return given
 
-    def _kinetic(self, motions: Motions, inputs: Mapping[str, Floats]) -> Floats:
-        found: Floats = self.equation.evaluate(["kinetic"], self._given(motions, inputs), len(motions.records))[0]
+    def _kinetic(self, motions: Motions) -> Floats:
+        found: Floats = self.equation.evaluate(["kinetic"], self._given(motions), len(motions.records))[0]
         return found
 
     def _ends(self, motions: Motions, before: Floats, kinetic: Floats, met: Flags, undecided: Flags) -> Ends:
@@ -247,19 +245,18 @@ class SideBySide:
         )
 
     # sides of the switches at the start -----------------------------------------------------------------
-    def _take_sides(self, motions: Motions, inputs: Mapping[str, Floats]) -> Flags:
+    def _take_sides(self, motions: Motions) -> Flags:
         """Sets the switches to where they are, or go to where they are at their roots; the designs for which there is
         no such side, as something sticks."""
         count = len(motions.records)
         undecided = np.zeros(count, dtype=np.bool_)
-        given = self._given(motions, inputs)
+        given = self._given(motions)
         for _again in range(2 if len(self.surfaces) > 1 else 1):
             undecided[:] = False
             for surface in self.surfaces:
                 undecided |= self._side_of(surface, given, count)
-        switches = range(len(self.equation.switches.lines))
-        for number in switches:
-            motions.sides[:, number] = 2.0 * inputs[switch_name(number)] - 1.0
+        for number, name in enumerate(self.equation.switches.names):
+            motions.sides[:, number] = 2.0 * given[name] - 1.0
         return undecided
 
     def _side_of(self, surface: Surface, given: Mapping[str, Floats], count: int) -> Flags:
