@@ -55,6 +55,19 @@ def test_designs_that_stick_are_run_by_themselves() -> None:
     assert coasting.rates["driver"] == pytest.approx([0.0], abs=1e-9)
 
 
+def test_conditions_hold_for_designs_that_are_run_by_themselves() -> None:
+    """Slowed down by 8 rad/s² from 8 rad/s at 0.3 rad: 4 rad in a second, and never a turn."""
+    coasting = lw.loads((WHEEL + RUBBING).replace("3 N·m", "0 N·m") + "run: {for: 3 s}\n")
+    begin = {"at": 0.3, "speed": 8.0}
+    found = lw.run_designs(coasting, {"wheel.inertia": [0.25, 0.25], "run.for": [1.5, 2.5]}, **begin)
+    assert found.alone.all()
+    assert found.time.tolist() == [1.5, 2.5]
+    assert found.coordinates["driver"] == pytest.approx([4.3, 4.3], rel=1e-8)
+    late = lw.run_designs(coasting, {"wheel.inertia": [0.25]}, turns=1.0, at_most=3.0, **begin)
+    assert late.alone.all()
+    assert (late.outcomes, late.time.tolist()) == (("late",), [3.0])
+
+
 def test_switching_at_times_of_their_own() -> None:
     """Torque from 0.5 s up to a time of each design, against friction all the while, started at 8 rad/s."""
     text = (WHEEL + RUBBING).replace("torque: 3 N·m}", "torque: 3 N·m, from: 0.5 s, until: 1 s}")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -271,8 +271,7 @@ class _Runs:
         longest = self._column(part, "run.at_most", asked.at_most or PATIENCE)
         until = longest if waits else self._column(part, "run.for", asked.duration or USUAL)
         turns = self._column(part, "run.turns", np.nan if asked.turns is None else asked.turns)
-        speed = np.full(count, self.speed)
-        return Starts(at, rates, np.zeros(count) + until, np.zeros(count) + turns, asked.until == "steady", speed)
+        return Starts(at, rates, until, turns, asked.until == "steady", np.full(count, self.speed))
 
     def _column(self, part: slice, address: str, otherwise: float) -> Floats:
         count = len(range(*part.indices(self.count)))
@@ -280,26 +279,18 @@ class _Runs:
 
     # one by one -----------------------------------------------------------------------------------------
     def _by_itself(self, number: int) -> None:
-        asked = self.asked
+        asked, own = self.asked, {name: float(column[number]) for name, column in self.columns.items()}
+        known = asked.dimensions() | own
         try:
-            design = self.mechanism.with_dimensions({name: float(x[number]) for name, x in self.columns.items()})
-            given = conditions_of(design) if any(name.startswith("run.") for name in self.columns) else asked
-            found = run(
-                design,
-                duration=given.duration,
-                turns=given.turns,
-                until=given.until,
-                at_most=given.at_most,
-                at=given.at,
-                speed=given.speed,
-                tolerance=self.tolerance,
-            )
+            design = replace(self.mechanism.with_dimensions(own), run=asked.with_dimensions(known.__getitem__))
+            found = run(design, tolerance=self.tolerance)
             alone = found_alone(found, self.speed)
         except LinkwrightError as error:
             self.refusals[number] = str(error)
             return
         through = asked.until or ("turns" if asked.turns is not None else "ended")
-        self.outcomes[number] = "late" if found.note is not None else through if through != "rest" else "ended"
+        met = found.note is None and (through == "ended" or (found.events and found.events[-1].kind == through))
+        self.outcomes[number] = "late" if not met else "ended" if through == "rest" else through
         self.time[number], self.residual[number], self.reached[number] = alone.end, alone.residual, alone.reached
         for name, rows in self.state.items():
             rows[:, number] = alone.coordinates[name], alone.rates[name]
