@@ -9,6 +9,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.dynamics.result import Run
+from linkwright.dynamics.samples import Samples
 from linkwright.dynamics.side_by_side import SideBySide
 
 #: Times at which the efforts of actuators are looked at.
@@ -35,40 +36,43 @@ def found_alone(run: Run, speed: float) -> Alone:
 
     state = run.end_state
     times = np.linspace(0.0, run.end, LOOKS)
-    efforts = _efforts(run, times)
+    samples = run.samples(times)
+    efforts = _efforts(run, samples)
     squares = {name: trapezoid(each**2, times) for name, each in efforts.items()}
     return Alone(
         run.end,
         {name: q for name, (q, _w) in state.items()},
         {name: w for name, (_q, w) in state.items()},
         run.energy_residual,
-        _reached(run, times, speed),
+        _reached(run, samples, speed),
         {name: float(np.abs(each).max()) for name, each in efforts.items()},
         {name: float(np.sqrt(each / run.end)) for name, each in squares.items()},
     )
 
 
-def _efforts(run: Run, times: Floats) -> dict[str, Floats]:
+def _efforts(run: Run, samples: Samples) -> dict[str, Floats]:
     side = SideBySide(run.equation)
     if not side.actuators:
         return {}
     found = []
-    for part in run.samples(times).parts:
+    for part in samples.parts:
         program = (side if part.equation is run.equation else SideBySide(part.equation)).effort_program
         found.append(part.equation.run(program, part.given, len(part.time)))
     return dict(zip(side.actuators, np.concatenate(found, axis=1), strict=True))
 
 
-def _reached(run: Run, times: Floats, speed: float) -> float:
+def _reached(run: Run, samples: Samples, speed: float) -> float:
     from scipy.optimize import brentq
 
-    first = run.coordinates[0]
+    if np.isnan(speed):
+        return np.nan
+    first, times = run.coordinates[0], samples.time
 
     def beyond(time: float) -> float:
         return float(run.samples([time]).course[first][1][0]) - speed
 
-    rates = run.samples(times).course[first][1] - speed
+    rates = samples.course[first][1] - speed
     crossed = np.flatnonzero(rates[:-1] * rates[1:] < 0.0)
-    if np.isnan(speed) or not len(crossed):
+    if not len(crossed):
         return np.nan
     return float(brentq(beyond, times[crossed[0]], times[crossed[0] + 1], xtol=1e-12))
