@@ -70,12 +70,8 @@ class ChangePoint:
 
     def _follow(self, q: Floats, k: int) -> None:
         """Finds the place anew, as the zero of the polynomial through signed roots of a quality at the nodes."""
-        side = self._roots
+        side, sign = self._roots, np.where(self.nodes < 0.0, 1.0, -1.0)
         rows = [side.inputs[f"q:{name}"] for name in self.description.names]
-        sign = np.where(self.nodes < 0.0, 1.0, -1.0)
-        for name, row in ((name, side.inputs.get(name)) for name in mode_inputs(self.modes)):
-            if row is not None:
-                side.x[row] = mode_inputs(self.modes)[name] * sign
         for _step in range(FOLLOWED):
             side.x[rows] = q[:, None]
             side.x[rows[k]] = self.place + self.nodes
@@ -90,11 +86,13 @@ class ChangePoint:
 
     @cached_property
     def _roots(self) -> RightSide:
-        """The quality of one of the groups at the nodes."""
+        """The quality of one of the groups at the nodes, with the modes of each side."""
         equation = self.description.equation
         program = equation.program([f"closure:{next(iter(self.modes))}"])
         first = [f"q:{name}" for name in self.description.names]
-        return RightSide(program, {**equation.numbers, **self.description.held}, lanes=NODES, first=first)
+        found = RightSide(program, {**equation.numbers, **self.description.held}, lanes=NODES, first=first)
+        found.set_inputs(self.signs(self.nodes))
+        return found
 
     def signs(self, beyond: Floats) -> dict[str, Floats]:
         """Signs of the modes that flip, by the names of inputs, at distances (n,) from it."""
@@ -315,7 +313,7 @@ class Bridged:
         description = point.description
         equation = description.equation
         self.point, self.right = point, right
-        self.program, self.inputs, self.numbers = right.program, right.inputs, right.numbers
+        self.program, self.inputs, self.set_inputs = right.program, right.inputs, right.set_inputs
         self.x, self.out = right.x, right.out
         numbers = dict(zip(right.program.parameters, right.numbers.tolist(), strict=True))
         self.lanes = RightSide(
@@ -331,19 +329,16 @@ class Bridged:
         #: How far behind the change point it was called last, rad or m.
         self.beyond = 0.0
         self.modes = [
-            (right.inputs[name], sign)
-            for group, sign in point.modes.items()
-            if (name := Input("mode", group).name) in right.inputs
+            (right.inputs[name], sign) for name, sign in mode_inputs(point.modes).items() if name in right.inputs
         ]
         self.states = [right.inputs[name] for name in point.states if name in right.inputs]
         names = right.program.output_names
         self._next = [names.index(f"next:{name}") for name in point.states if f"next:{name}" in names]
-        if self.states:
-            self.lanes.x[self.states] = [point.states[name] for name in point.states if name in right.inputs]
+        self.lanes.set_inputs({**point.signs(point.nodes), **point.states})
+        #: Rows that differ from node to node, but for the coordinate.
+        self._own = [*self.states, *(row for row, _sign in self.modes)]
         direct = ("gap:", "closure:", "outcome", "next:")
         self.direct = np.array([k for k, name in enumerate(names) if name.startswith(direct)], dtype=np.intp)
-        self.addresses = (0, 0)
-        self.compiled, self.lane_count = right.compiled, None
 
     def call(self) -> None:
         """Evaluates ``x`` into ``out``."""
@@ -365,13 +360,10 @@ class Bridged:
 
     def _read(self, beyond: float) -> Floats:
         x, nodes = self.lanes.x, self.point.nodes
-        own = x[self.states].copy()
+        own = x[self._own].copy()
         x[:] = self.x[:, None]
-        x[self.states] = own
+        x[self._own] = own
         x[self.row] = self.point.place + nodes
-        side = np.where(nodes < 0.0, 1.0, -1.0)
-        for row, sign in self.modes:
-            x[row] = sign * side
         for _step in range(CLOSING_STEPS if self.states else 1):
             self.lanes.call()
             if not self.states:

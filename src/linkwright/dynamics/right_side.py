@@ -72,6 +72,12 @@ class RightSide:
         else:
             self.call = self._by_floats(tables) if lanes is None else self._by_numpy(tables)
 
+    def set_inputs(self, values: Mapping[str, float | Floats]) -> None:
+        """Sets inputs by name, those that the program has; (lanes,) or one number each."""
+        for name, value in values.items():
+            if name in self.inputs:
+                self.x[self.inputs[name]] = value
+
     def _compile(self, tables: Tables | None) -> None:
         """Lanes as wide as the processor's; one number wide for few, which then need not be padded."""
         program, lanes = self.program, self.lanes or 1

@@ -45,9 +45,7 @@ class Stretch:
 
     def side(self, right: RightSide) -> RightSide | Bridged:
         """A right side of its equation as it is to be called on it."""
-        for name, value in self.description.held.items():
-            if name in right.inputs:
-                right.x[right.inputs[name]] = value
+        right.set_inputs(self.description.held)
         return right if self.point is None else Bridged(right, self.point)
 
     def margin(self, qualities: Floats, side: RightSide | Bridged) -> float:

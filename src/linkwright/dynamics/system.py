@@ -13,6 +13,7 @@ from linkwright.core.arrays import Floats, Indices
 from linkwright.core.outputs import Output
 from linkwright.dynamics.change_points import Bridged
 from linkwright.dynamics.complementarity import shares
+from linkwright.dynamics.description import CLOSED, CLOSING_STEPS
 from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.right_side import RightSide
 from linkwright.dynamics.singular import Stretch
@@ -24,9 +25,6 @@ from linkwright.dynamics.switches import gap_name, gap_rate_name, switch_name
 ZERO, NO_JUMP = 1e-9, 1e-12
 #: Rounding of shares and rates where it is decided what slips; of so many groups and stops all ways are tried.
 SLACK, MOST_TRIED = 1e-9, 5
-#: Newton's steps of groups without closed form at a position, and the change that ends them.
-CLOSING_STEPS, CLOSED = 24, 1e-13
-
 
 Side = RightSide | Bridged
 #: Outputs of the equation about a stop: its distance, the rate of that, and the rate of the rate.
@@ -139,9 +137,7 @@ class System:
     def set_inputs(self, values: Mapping[str, float]) -> None:
         """Sets inputs by name, such as where Newton's steps of groups without closed form begin."""
         for side in (self.slim, self.full):
-            for name, value in values.items():
-                if name in side.inputs:
-                    side.x[side.inputs[name]] = value
+            side.set_inputs(values)
 
     def hold(self, holding: Holding) -> None:
         """What holds from here on."""
