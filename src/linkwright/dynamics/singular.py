@@ -12,7 +12,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.dynamics.change_points import Bridged, ChangePoint, change_point
+from linkwright.dynamics.change_point_search import change_point
+from linkwright.dynamics.change_points import Bridged, ChangePoint
 from linkwright.dynamics.description import Description
 from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.hand_over import Descriptions
