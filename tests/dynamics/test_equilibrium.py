@@ -345,6 +345,18 @@ def test_a_lid_between_stops() -> None:
     assert shut.barriers == (None, pytest.approx(work, rel=1e-6))
 
 
+@pytest.mark.parametrize("floor", [0, 1])
+def test_a_brake_holds_up_to_a_stop(floor: int) -> None:
+    """A brake of more than m g r holds the rod everywhere between its stops, which need not push."""
+    text = PENDULUM.replace("speed: 1 rad/s", "speed: 1 rad/s, start: 60 deg")
+    text += "actuators: {hinge: {kind: brake, on: rod, torque: 8 N·m}}\nstops:\n"
+    text += f"  floor: {{of: rod.angle, at: {floor} deg, side: below}}\n"
+    text += "  top: {of: rod.angle, at: 120 deg, side: above}\n"
+    (held,) = lw.equilibrium(lw.loads(text))
+    assert held.stability == "held"
+    assert (held.low, held.high) == pytest.approx(np.radians([floor, 120]), abs=1e-12)
+
+
 TRIPLE_ROCKER = """
 format: 1
 name: Triple rocker

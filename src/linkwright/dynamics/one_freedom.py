@@ -73,7 +73,8 @@ class OneFreedom(EquilibriumSearch):
             place = self.extent.high if side else self.extent.low
             effort = down.value(place) if side else up.value(place)
             pushed = -effort if side else effort
-            known = (abs(end - place) for each in found for end in (each.low, each.high, each.place[0]) if end)
+            ends = (end for each in found for end in (each.low, each.high, each.place[0]) if end is not None)
+            known = (abs(end - place) for end in ends)
             if stop and pushed > BALANCED * self.scale[0] and min(known, default=1.0) > SAME * self.units[0]:
                 at = np.array([place])
                 lever = abs(float(self.forces.stop_levers(stop, at[:, None])[0, 0]))
