@@ -46,6 +46,11 @@ class Torques:
     returning: Floats
 
     @property
+    def left(self) -> Floats:
+        """Needed less available: what is left for one more motor."""
+        return self.needed - self.available
+
+    @property
     def excess(self) -> Floats:
         """Available less needed; minus infinity where no effort moves the machine."""
         return np.where(np.isnan(self.needed), -np.inf, self.available - self.needed)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,6 @@ import numpy as np
 
 from linkwright.actuators.motor import Motor
 from linkwright.core.arguments import integer, real, require
-from linkwright.core.arrays import Floats
 from linkwright.core.progress import Progress, current_progress
 from linkwright.core.quantity import shown
 from linkwright.core.table import PERCENT, Amount, Cell, Table, Tabular
@@ -267,9 +267,7 @@ class _Task:
                 )
             )
         self.needed = float(load.peak.needed[0])
-        self.running: Torques | None = None
-        self.constant = self.drive.speed is not None
-        if not self.drive.prescribed or not self._fastest:
+        if not self.drive.prescribed or not self.speed:
             raise RequestError(
                 _(
                     "nothing says how fast {name!r} runs; give its driver a speed or another law",
@@ -278,20 +276,14 @@ class _Task:
                 )
             )
 
-    @property
+    @cached_property
     def _torques(self) -> Torques:
-        if self.running is None:
-            self.running = self.drive.running(self.drive.cycle(self.steps, closed=True))
-        return self.running
-
-    @property
-    def _fastest(self) -> float:
-        return float(np.abs(self._torques.rate).max()) if self.drive.prescribed else 0.0
+        return self.drive.running(self.drive.cycle(self.steps, closed=True))
 
     @property
     def speed(self) -> float:
         """Largest speed of the driver, rad/s."""
-        return self._fastest
+        return float(np.abs(self._torques.rate).max())
 
     def judged(self, listed: ListedMotor, gear: ListedGear, *, tried: bool) -> Candidate:
         """One motor with one gear."""
@@ -299,7 +291,7 @@ class _Task:
         i, eta = transmission(motor), motor.efficiency or 1.0
         at_rest = float(motor.at_limit().torque_at(np.zeros(1), 0.0)[0])
         margin = i * eta * at_rest / self.needed if self.needed > 0.0 else np.inf
-        reason = self._too_fast(motor, listed, i) or self._no_start(motor, margin, i * eta * at_rest)
+        reason = self._too_fast(motor, listed, i) or self._no_start(margin, i * eta * at_rest)
         if reason is not None or not tried:
             return Candidate(motor, gear.name, margin, None, reason, tried or reason is not None)
         try:
@@ -330,7 +322,7 @@ class _Task:
             return None
         return _("must turn at {speed}, its limit is {limit}", speed=rpm(i * self.speed), limit=rpm(most))
 
-    def _no_start(self, motor: Motor, margin: float, available: float) -> Message | None:
+    def _no_start(self, margin: float, available: float) -> Message | None:
         if margin >= self.asked.margin:
             return None
         return _(
@@ -361,23 +353,17 @@ class _Task:
                 raise LinkwrightError(weak)
             found = motor_duty(machine, motor.name, by="run", steps=self.steps)
             return replace(found, rating=listed.rating, limit=limits(motor, found.speed, listed.rating))
-        duty = law_duty(machine, motor, self._torques, self._resisting, listed.rating)
-        if self.constant and not duty.findings:
+        duty = law_duty(machine, motor, self._torques, listed.rating)
+        if self.drive.speed is not None and not duty.findings:
             up = motor_duty(machine, motor.name, by="run", steps=self.steps)
             duty = replace(duty, run_up=up.run_up, run_up_rms=up.run_up_rms)
         return duty
-
-    @property
-    def _resisting(self) -> Floats:
-        """What the motor must overcome, actuators that stay taken off."""
-        torques = self._torques
-        return torques.needed - (torques.available if self.mechanism.actuators else 0.0)
 
     def _stalls(self, motor: Motor) -> Message | None:
         """That its largest torque at any speed is below the mean that is needed."""
         i, eta = transmission(motor), motor.efficiency or 1.0
         most = i * eta * float(motor.torque_at(np.linspace(0.0, i * self.speed, 201)).max())
-        mean = mean_over(self._torques.time, self._resisting)
+        mean = mean_over(self._torques.time, self._torques.left)
         if most >= mean:
             return None
         return _(

@@ -18,6 +18,7 @@ from linkwright.core.table import PERCENT, Block, Numbers, Row
 from linkwright.dynamics.result import Run
 from linkwright.dynamics.run import run
 from linkwright.dynamics.verdicts.drive import Drive, Torques, mean_over
+from linkwright.dynamics.zeros import root
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
@@ -284,13 +285,13 @@ def _by_law(mechanism: Mechanism, motor: Motor, driver: str, steps: int) -> Moto
             )
         )
     torques = drive.running(drive.cycle(steps, closed=True))
-    return law_duty(mechanism, motor, torques, torques.needed - (torques.available if others else 0.0), motor.rating)
+    return law_duty(mechanism, motor, torques, motor.rating)
 
 
-def law_duty(mechanism: Mechanism, motor: Motor, torques: Torques, load: Floats, rating: Rating) -> MotorDuty:
-    """The duty of a motor where its machine moves by its law, from the ``load`` (N·m on the link) over the cycle."""
+def law_duty(mechanism: Mechanism, motor: Motor, torques: Torques, rating: Rating) -> MotorDuty:
+    """The duty of a motor where its machine moves by its law, from the ``torques`` over the cycle without it."""
     i, eta = transmission(motor), motor.efficiency or 1.0
-    link = load + i * i * (motor.inertia or 0.0) * torques.second
+    link = torques.left + i * i * (motor.inertia or 0.0) * torques.second
     torque = np.where(link > 0.0, link / (i * eta), 0.0 if motor.self_locking else link * eta / i)
     speed = i * np.abs(torques.rate)
     most = limits(motor, speed, rating)
@@ -299,8 +300,6 @@ def law_duty(mechanism: Mechanism, motor: Motor, torques: Torques, load: Floats,
 
 def _last_cycle(found: Run, mechanism: Mechanism, driver: str) -> float:
     """The time at which the last cycle of a steady run begins, s."""
-    from scipy.optimize import brentq
-
     drive = Drive(replace(mechanism, actuators={}), driver)
     turns = max(1, round((drive.period or 0.0) * (drive.speed or 0.0) / TURN))
     end, rate = found.end_state[driver]
@@ -309,7 +308,7 @@ def _last_cycle(found: Run, mechanism: Mechanism, driver: str) -> float:
     def off(time: float) -> float:
         return float(found.samples([time]).course[driver][0][0] - target)
 
-    return float(brentq(off, 0.0, found.end, xtol=1e-13 * found.end))
+    return root(off, 0.0, found.end)
 
 
 def limits(motor: Motor, speed: Floats, rating: Rating) -> Floats:
