@@ -17,7 +17,7 @@ from linkwright.kinematics.input_range import input_range
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.cycle import Cycle
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.registry import offered
+from linkwright.registry import no_such
 from linkwright.words import _
 
 #: Time, s, at which a machine in motion has been switched on for long.
@@ -182,14 +182,7 @@ def _driver(mechanism: Mechanism, driver: str | None) -> str:
         )
     name = driver or next(iter(mechanism.drivers))
     if name not in mechanism.drivers:
-        raise RequestError(
-            _(
-                'there is no driver "{driver}"; {hint}',
-                code="verdicts.unknown_driver",
-                driver=name,
-                hint=offered(name, mechanism.drivers),
-            )
-        )
+        raise RequestError(no_such(_("driver"), name, mechanism.drivers))
     return name
 
 
