@@ -390,18 +390,18 @@ except lw.LinkwrightError as error:
 
 def codes(language: str) -> Iterator[str]:
     """The codes of findings with what they mean, and those of errors by area."""
-    words, column = CODE_WORDS[language], ("en", "zh").index(language)
+    words = CODE_WORDS[language]
     yield f"# {words['title']}\n\n{words['intro']}\n\n{CODE_EXAMPLE}"
     yield f"## {words['files']}\n\n{words['code']}"
     for code in sorted(coded.of_findings()):
-        yield f"| `{code}` | {coded.MEANINGS[code][column]} |"
+        yield f"| `{code}` | {coded.MEANINGS[code].translate(language)} |"
     yield f"\n## {words['calculations']}\n\n{words['sentence']}"
     for code, text in sorted(coded.of_calculations().items()):
         yield f"| `{code}` | {cell(plain(re.sub('{.*?}', '…', Message(text).translate(language))))} |"
     yield f"\n## {words['errors']}\n\n{words['parts']}\n\n{words['areas']}"
     for area, some in coded.of_errors().items():
         shown = ", ".join(f"`{each}`" for each in some[:3])
-        yield f"| `{area}` | {coded.AREAS[area][column]} | {shown} |"
+        yield f"| `{area}` | {coded.AREAS[area].translate(language)} | {shown} |"
 
 
 if __name__ == "__main__":
