@@ -87,6 +87,8 @@ from .gears.gear import Gear as Gear
 from .gears.pair import GearPair as GearPair
 from .gears.pair import gear_pair as gear_pair
 from .gears.rack import Rack as Rack
+from .importers.foreign import Foreign as Foreign
+from .importers.foreign import read_foreign as read_foreign
 from .kinematics.input_range import input_range as input_range
 from .kinematics.motion import Motion as Motion
 from .kinematics.motion import Outcome as Outcome

@@ -31,6 +31,7 @@ STAGES = (
     ("designs", "synthesis", "cams", "gears", "parts"),
     ("reports", "plotting", "exporters", "page", "validation", "course", "sheets"),
     ("file_check",),
+    ("importers",),
     ("cli", "server", "__main__"),
 )
 STAGE = {package: number for number, packages in enumerate(STAGES) for package in packages}

@@ -41,6 +41,13 @@ def read_source(source: str | Path) -> tuple[str, str]:
                 found=describe(source),
             )
         )
+    content = read_bytes(source)
+    name = os.path.basename(source)
+    return decode(content, name), name
+
+
+def read_bytes(source: str | Path) -> bytes:
+    """What a file holds; raises ModelError with what is wrong with its name or the file."""
     from pathlib import Path
 
     path = Path(source)
@@ -56,11 +63,10 @@ def read_source(source: str | Path) -> tuple[str, str]:
             raise _refuse(path, _("this is a folder"), _("name a model file in it"), "not-a-file")
         if not path.exists():
             raise _refuse(path, _("there is no such file"), _near_file(path), "no-file")
-        content = _content(path)
+        return _content(path)
     except (OSError, ValueError) as error:
         unreadable = _("the file cannot be read ({reason})", reason=reason_of(error))
         raise _refuse(path, unreadable, _("check its name and permissions"), "no-file") from None
-    return decode(content, path.name), path.name
 
 
 def _content(path: Path) -> bytes:

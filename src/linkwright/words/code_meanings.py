@@ -113,6 +113,7 @@ AREAS: Mapping[str, Message] = {
     "gallery": pgettext("finding code", "the command gallery"),
     "gears": pgettext("finding code", "gear pairs"),
     "given_instead": pgettext("finding code", "arguments of a wrong type or out of range"),
+    "import": pgettext("finding code", "reading models of other programs"),
     "joints": pgettext("finding code", "joints"),
     "laws": pgettext("finding code", "motion laws"),
     "loads": pgettext("finding code", "loads over the cycle"),

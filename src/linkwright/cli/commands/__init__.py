@@ -1,12 +1,14 @@
 """The commands, one module each, imported only when the command is called.
 
 A module ``NAME`` has ``run``, a function of options and session that returns the exit code, declared by
-:func:`linkwright.cli.command.command`. The commands ``PARTS`` are all in :mod:`linkwright.cli.part`.
+:func:`linkwright.cli.command.command`; where the name is a word of Python an
+underscore follows. The commands ``PARTS`` are all in :mod:`linkwright.cli.part`.
 """
 
 from __future__ import annotations
 
 import importlib
+from keyword import iskeyword
 from typing import TYPE_CHECKING, cast
 
 from linkwright.core.entry_points import modules_within
@@ -20,7 +22,7 @@ PARTS = ("beam", "program", "statics", "statistics", "trajectory", "vibration")
 
 def names() -> tuple[str, ...]:
     """Names of all commands, without importing any."""
-    return tuple(sorted([*modules_within(__path__), *PARTS]))
+    return tuple(sorted([*(each.removesuffix("_") for each in modules_within(__path__)), *PARTS]))
 
 
 def command(name: str) -> Command:
@@ -29,4 +31,5 @@ def command(name: str) -> Command:
         from linkwright.cli.part import PART_COMMANDS
 
         return PART_COMMANDS[name]
-    return cast("Command", importlib.import_module(f"{__name__}.{name}").run)
+    module = f"{name}_" if iskeyword(name) else name
+    return cast("Command", importlib.import_module(f"{__name__}.{module}").run)
