@@ -2,6 +2,12 @@
 
 from __future__ import annotations
 
+
+def bar(a: str, b: str, length: float) -> str:
+    """A slender bar of 1 kg."""
+    return f"{{points: [{a}, {b}], length: {length} m, mass: 1 kg, inertia: {length**2 / 12!r} kg·m²}}"
+
+
 ANDREWS = """
 format: 1
 name: Andrews' squeezer
@@ -120,14 +126,11 @@ FALL = INCLINE.replace("Block on an incline", "Falling block").replace("incline"
 
 
 def windows(n: int) -> str:
-    """N windows: n + 1 upright rods of 1 m, 1 kg, and n lying ones between their upper ends."""
-
-    def rod(a: str, b: str) -> str:
-        return f"{{points: [{a}, {b}], length: 1 m, mass: 1 kg, inertia: {1 / 12!r} kg·m²}}"
-
+    """N windows (the N-four-bar problem of the IFToMM library of benchmarks): n + 1 upright rods of 1 m, 1 kg, and n
+    lying ones between their upper ends."""
     feet = ", ".join(f"F{i}: [{i} m, 0 m]" for i in range(n + 1))
-    links = [f"  up{i}: {rod(f'F{i}', f'B{i}')}" for i in range(n + 1)]
-    links += [f"  lie{i}: {rod(f'B{i - 1}', f'B{i}')}" for i in range(1, n + 1)]
+    links = [f"  up{i}: {bar(f'F{i}', f'B{i}', 1.0)}" for i in range(n + 1)]
+    links += [f"  lie{i}: {bar(f'B{i - 1}', f'B{i}', 1.0)}" for i in range(1, n + 1)]
     words = ", ".join(f"B{i}: right" for i in range(1, n + 1))
     return "\n".join(
         [
@@ -142,6 +145,39 @@ def windows(n: int) -> str:
         ]
     )
 
+
+#: Two motors on a chain of four bars, whose elbows stretch and fold.
+ELBOWS = f"""
+format: 1
+name: Chain with elbows
+frame: {{points: {{P: [0 m, 0 m], Q: [2.1 m, 0 m]}}}}
+links:
+  one: {bar("P", "A", 1.0)}
+  two: {bar("A", "B", 0.9)}
+  three: {bar("B", "C", 0.8)}
+  four: {bar("Q", "C", 1.1)}
+assembly: {{B: left}}
+drivers:
+  p: {{turn: one, about: P, speed: 1 rad/s, start: 70 deg}}
+  q: {{turn: four, about: Q, speed: 1 rad/s, start: 110 deg}}
+gravity: [0, -9.81 m/s²]
+"""
+
+#: A slider-crank that its slide drives.
+ENGINE = f"""
+format: 1
+name: Engine
+frame: {{points: {{O: [0 m, 0 m]}}}}
+links:
+  crank: {bar("O", "A", 0.3)}
+  rod: {bar("A", "B", 0.8)}
+  slide: {{points: [B], mass: 3 kg}}
+joints:
+  guide: {{kind: prismatic, guide: frame, through: O, direction: 0 deg, block: slide, at: B}}
+driver: {{slide: guide, speed: 1 m/s, start: 0.9 m}}
+assembly: {{A: left}}
+gravity: [0, -9.81 m/s²]
+"""
 
 PRESS = """
 format: 1
@@ -158,11 +194,12 @@ driver: {turn: crank, about: O, speed: 1 rad/s, start: 20 deg}
 gravity: [0, -9.81 m/s²]
 """
 
+#: A crank-rocker with a further fixed point S, for springs.
+SPRUNG = CRANK_ROCKER.replace("O2: [0.4 m, 0 m]", "O2: [0.4 m, 0 m], S: [0.1 m, 0.4 m]")
+
 #: A crank-rocker with one load of each kind that acts without switching.
 LOADED = (
-    CRANK_ROCKER.replace("name: Crank-rocker", "name: Loaded crank-rocker").replace(
-        "O2: [0.4 m, 0 m]", "O2: [0.4 m, 0 m], S: [0.1 m, 0.4 m]"
-    )
+    SPRUNG.replace("name: Crank-rocker", "name: Loaded crank-rocker")
     + """
 loads:
   spring: {kind: spring, between: [coupler.B, frame.S], stiffness: 400 N/m, free_length: 0.15 m, preload: 6 N}

@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from tests.dynamics.models import SPRUNG, TRIPLE_ROCKER
 
 import linkwright as lw
 
@@ -20,19 +21,9 @@ driver: {turn: rod, about: O, speed: 1 rad/s}
 gravity: [0, -9.81 m/s²]
 """
 
-FOUR_BAR = """
-format: 1
-name: Sprung four-bar
-frame: {points: {O1: [0 m, 0 m], O2: [0.4 m, 0 m], S: [0.1 m, 0.4 m]}}
-links:
-  crank: {points: [O1, A], length: 0.1 m, mass: 0.8 kg, inertia: 0.001 kg·m²}
-  coupler: {points: [A, B], length: 0.35 m, mass: 2 kg, inertia: 0.022 kg·m²}
-  rocker: {points: [O2, B], length: 0.25 m, mass: 1.5 kg, inertia: 0.009 kg·m²}
-assembly: {B: left}
-driver: {turn: crank, about: O1, speed: 1 rad/s, start: 60 deg}
-gravity: [0, -9.81 m/s²]
+FOUR_BAR = f"""{SPRUNG}
 loads:
-  spring: {kind: spring, between: [coupler.B, frame.S], stiffness: 400 N/m, free_length: 0.15 m}
+  spring: {{kind: spring, between: [coupler.B, frame.S], stiffness: 400 N/m, free_length: 0.15 m}}
 """
 
 
@@ -355,20 +346,6 @@ def test_a_brake_holds_up_to_a_stop(floor: int) -> None:
     (held,) = lw.equilibrium(lw.loads(text))
     assert held.stability == "held"
     assert (held.low, held.high) == pytest.approx(np.radians([floor, 120]), abs=1e-12)
-
-
-TRIPLE_ROCKER = """
-format: 1
-name: Triple rocker
-frame: {points: {P: [0 m, 0 m], Q: [4 m, 0 m]}}
-links:
-  left: {points: [P, A], length: 2 m, mass: 2 kg, inertia: 0.7 kg·m²}
-  bar: {points: [A, B], length: 2 m, mass: 2 kg, inertia: 0.7 kg·m²}
-  right: {points: [Q, B], length: 3 m, mass: 3 kg, inertia: 2.3 kg·m²}
-assembly: {B: left}
-driver: {turn: left, about: P, speed: 1 rad/s, start: 40 deg}
-gravity: [0, -9.81 m/s²]
-"""
 
 
 def test_the_other_side_of_a_dead_point() -> None:

@@ -8,15 +8,10 @@ import numpy as np
 import pytest
 from tests.dynamics import models
 from tests.dynamics.agreement import by_multibody, disagreements
+from tests.dynamics.models import ELBOWS, ENGINE, bar
 from tests.dynamics.windows import off
 
 import linkwright as lw
-
-
-def bar(a: str, b: str, length: float) -> str:
-    """A slender bar of 1 kg."""
-    return f"{{points: [{a}, {b}], length: {length} m, mass: 1 kg, inertia: {length**2 / 12!r} kg·m²}}"
-
 
 DOUBLE_ROCKER = f"""
 format: 1
@@ -28,37 +23,6 @@ links:
   right: {bar("Q", "B", 3.0)}
 assembly: {{B: left}}
 driver: {{turn: left, about: P, speed: 1 rad/s, start: 70 deg}}
-gravity: [0, -9.81 m/s²]
-"""
-
-ELBOWS = f"""
-format: 1
-name: Chain with elbows
-frame: {{points: {{P: [0 m, 0 m], Q: [2.1 m, 0 m]}}}}
-links:
-  one: {bar("P", "A", 1.0)}
-  two: {bar("A", "B", 0.9)}
-  three: {bar("B", "C", 0.8)}
-  four: {bar("Q", "C", 1.1)}
-assembly: {{B: left}}
-drivers:
-  p: {{turn: one, about: P, speed: 1 rad/s, start: 70 deg}}
-  q: {{turn: four, about: Q, speed: 1 rad/s, start: 110 deg}}
-gravity: [0, -9.81 m/s²]
-"""
-
-ENGINE = f"""
-format: 1
-name: Engine
-frame: {{points: {{O: [0 m, 0 m]}}}}
-links:
-  crank: {bar("O", "A", 0.3)}
-  rod: {bar("A", "B", 0.8)}
-  slide: {{points: [B], mass: 3 kg}}
-joints:
-  guide: {{kind: prismatic, guide: frame, through: O, direction: 0 deg, block: slide, at: B}}
-driver: {{slide: guide, speed: 1 m/s, start: 0.9 m}}
-assembly: {{A: left}}
 gravity: [0, -9.81 m/s²]
 """
 

@@ -7,18 +7,13 @@ import math
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from tests.dynamics.models import ELBOWS, ENGINE, bar, windows
 from tests.unit.dynamics.course import integrated
 
 import linkwright as lw
 from linkwright.core.arrays import Floats
 from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.singular import SingularPositions
-
-
-def bar(a: str, b: str, length: float, mass: float = 1.0) -> str:
-    """A slender bar."""
-    return f"{{points: [{a}, {b}], length: {length} m, mass: {mass} kg, inertia: {mass * length**2 / 12!r} kg·m²}}"
-
 
 FOUR_BAR = """
 format: 1
@@ -41,22 +36,10 @@ def four_bar(lengths: tuple[float, float, float, float], start: float, mode: str
     return lw.loads(FOUR_BAR.format(name="Four-bar", base=base, start=start, mode=mode, **links))
 
 
-def windows(count: int) -> lw.Mechanism:
-    """Windows in a row: upright rods of 1 m and 1 kg, lying ones between their upper ends (the N-four-bar problem of
-    the IFToMM library of benchmarks)."""
-    feet = ", ".join(f"F{i}: [{i} m, 0 m]" for i in range(count + 1))
-    links = [f"  up{i}: {bar(f'F{i}', f'B{i}', 1.0)}" for i in range(count + 1)]
-    links += [f"  lie{i}: {bar(f'B{i - 1}', f'B{i}', 1.0)}" for i in range(1, count + 1)]
-    modes = ", ".join(f"B{i}: right" for i in range(1, count + 1))
-    lines = ["format: 1", f"name: {count} windows", f"frame: {{points: {{{feet}}}}}", "links:", *links]
-    lines += [f"assembly: {{{modes}}}", "driver: {turn: up0, about: F0, speed: 1 rad/s, start: 90 deg}"]
-    return lw.loads("\n".join([*lines, "gravity: [0, -9.81 m/s²]"]))
-
-
 @pytest.mark.parametrize("count", [2, 5])
 def test_windows_go_on_through_their_change_points(count: int) -> None:
     """All rods stay parallel: the energy is that of one pendulum; the end for two windows is the printed one."""
-    found = integrated(windows(count), [math.pi / 2], [-1.0], 10.0 if count == 2 else 3.0)
+    found = integrated(lw.loads(windows(count)), [math.pi / 2], [-1.0], 10.0 if count == 2 else 3.0)
     y = np.concatenate(found.states, axis=1)
     inertia, weight = (count + 1) / 3 + count, ((count + 1) / 2 + count) * 9.81
     energy = 0.5 * inertia * y[1] ** 2 + weight * np.sin(y[0])
@@ -68,7 +51,7 @@ def test_windows_go_on_through_their_change_points(count: int) -> None:
 
 def test_forty_windows_have_one_change_point_together() -> None:
     """All forty groups touch zero in one place, and their modes flip together."""
-    positions = SingularPositions(EquationOfMotion(windows(40), flipping=True))
+    positions = SingularPositions(EquationOfMotion(lw.loads(windows(40)), flipping=True))
     stretch, _q, _w = positions.first(np.array([0.2]), np.array([-1.0]))
     assert stretch.point is not None
     assert len(stretch.point.modes) == 40
@@ -135,19 +118,7 @@ def test_rockers_keep_their_energy_through_many_dead_points() -> None:
 
 def test_of_two_freedoms_one_coordinate_is_exchanged() -> None:
     """A chain of four bars between two pins of the frame, both driven: its elbows stretch and fold."""
-    links = [f"  {k}: {bar(a, b, size)}" for k, a, b, size in (("one", "P", "A", 1.0), ("two", "A", "B", 0.9))]
-    links += [f"  {k}: {bar(a, b, size)}" for k, a, b, size in (("three", "B", "C", 0.8), ("four", "Q", "C", 1.1))]
-    text = "\n".join(
-        [
-            "format: 1\nframe: {points: {P: [0 m, 0 m], Q: [2.1 m, 0 m]}}\nlinks:",
-            *links,
-            "drivers:",
-            "  p: {turn: one, about: P, speed: 1 rad/s, start: 70 deg}",
-            "  q: {turn: four, about: Q, speed: 1 rad/s, start: 110 deg}",
-            "assembly: {B: left}\ngravity: [0, -9.81 m/s²]",
-        ]
-    )
-    found = integrated(lw.loads(text), [math.radians(70), math.radians(110)], [0.0, 0.0], 3.0)
+    found = integrated(lw.loads(ELBOWS), [math.radians(70), math.radians(110)], [0.0, 0.0], 3.0)
     assert found.drift < 1e-10
     assert len(found.stretches) > 4
 
@@ -180,25 +151,9 @@ def test_a_change_point_moves_with_the_other_coordinate(against: str) -> None:
     assert sum(each.point is not None for each in found.stretches) > 1
 
 
-SLIDER_CRANK = f"""
-format: 1
-name: Engine
-frame: {{points: {{O: [0 m, 0 m]}}}}
-links:
-  crank: {bar("O", "A", 0.3)}
-  rod: {bar("A", "B", 0.8)}
-  slide: {{points: [B], mass: 3 kg}}
-joints:
-  guide: {{kind: prismatic, guide: frame, through: O, direction: 0 deg, block: slide, at: B}}
-driver: {{slide: guide, speed: 1 m/s, start: 0.9 m}}
-assembly: {{A: left}}
-gravity: [0, -9.81 m/s²]
-"""
-
-
 def test_a_run_may_begin_at_a_dead_point_from_rest() -> None:
     """The slide of a slider-crank at its end: the crank's angle takes over."""
-    found = integrated(lw.loads(SLIDER_CRANK), [1.1], [0.0], 1.0)
+    found = integrated(lw.loads(ENGINE), [1.1], [0.0], 1.0)
     assert found.coordinates == [["crank@O"]]
     assert found.states[0][0, 0] == pytest.approx(0.0, abs=1e-6)
     assert found.drift < 1e-10
@@ -207,7 +162,7 @@ def test_a_run_may_begin_at_a_dead_point_from_rest() -> None:
 def test_a_speed_at_a_dead_point_is_refused() -> None:
     """The speed of the slide is zero there whatever the crank does."""
     with pytest.raises(lw.LinkwrightError, match="begins at a dead point, at driver = 1100 mm"):
-        integrated(lw.loads(SLIDER_CRANK), [1.1], [1.0], 1.0)
+        integrated(lw.loads(ENGINE), [1.1], [1.0], 1.0)
 
 
 def test_loads_go_by_the_models_driver_in_other_coordinates() -> None:
