@@ -115,6 +115,21 @@ class Law(ABC):
         """The values of ``fields``, for writing a file."""
 
 
+class MadeLaw(Law):
+    """A law that no file says: it follows from other keys of the model."""
+
+    @classmethod
+    def fields(cls, rotary: bool) -> Mapping[str, Field]:
+        return {}
+
+    @classmethod
+    def from_values(cls, values: Mapping[str, object], rotary: bool, parameters: Mapping[str, float]) -> Law:
+        raise NotImplementedError
+
+    def text_values(self) -> Mapping[str, object]:
+        return {}
+
+
 def repeated(places: Array, period: float, start: float, end: float) -> Array:
     """Places of a period and those of the periods before and after, from ``start`` to ``end``, in order."""
     first, last = math.floor((start - places[-1]) / period), math.ceil((end - places[0]) / period)

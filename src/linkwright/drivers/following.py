@@ -7,13 +7,12 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from linkwright.core.attached import attached
-from linkwright.drivers.base import Law
+from linkwright.drivers.base import Law, MadeLaw
 from linkwright.formula.late_import import numpy as np
 
 if TYPE_CHECKING:
     from linkwright.drivers.base import Array
     from linkwright.drivers.path import Path
-    from linkwright.fields.base import Field
     from linkwright.formula.trace import Scalar
 
 #: How near polynomials of the time come to the coordinates, as share of the largest, where the time is traced.
@@ -21,7 +20,7 @@ FINE = 1e-11
 
 
 @dataclass(frozen=True)
-class PathPoint(Law):
+class PathPoint(MadeLaw):
     """One coordinate of the point that follows a path, ``axis`` 0 or 1, in m."""
 
     path: Path
@@ -42,17 +41,6 @@ class PathPoint(Law):
 
     def breaks(self, start: float, end: float) -> Array:
         return self.path.breaks(start, end)
-
-    @classmethod
-    def fields(cls, rotary: bool) -> Mapping[str, Field]:
-        return {}
-
-    @classmethod
-    def from_values(cls, values: Mapping[str, object], rotary: bool, parameters: Mapping[str, float]) -> Law:
-        raise NotImplementedError
-
-    def text_values(self) -> Mapping[str, object]:
-        return {}
 
 
 @dataclass(frozen=True)
@@ -93,7 +81,7 @@ class Guidance:
 
 
 @dataclass(frozen=True)
-class Following(Law):
+class Following(MadeLaw):
     """The law of a driver that follows a path: none of its own in the file; ``guidance`` gives its coordinate."""
 
     rotary: bool = True
@@ -129,14 +117,3 @@ class Following(Law):
     def with_dimensions(self, value: Callable[[str], float], parameters: Mapping[str, float]) -> Law:
         """Without the path, which the mechanism gives it again."""
         return self.own
-
-    @classmethod
-    def fields(cls, rotary: bool) -> Mapping[str, Field]:
-        return {}
-
-    @classmethod
-    def from_values(cls, values: Mapping[str, object], rotary: bool, parameters: Mapping[str, float]) -> Law:
-        return cls(rotary)
-
-    def text_values(self) -> Mapping[str, object]:
-        return {}

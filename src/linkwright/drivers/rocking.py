@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from linkwright.core.attached import attached
-from linkwright.drivers.base import Law
+from linkwright.drivers.base import Law, MadeLaw
 from linkwright.formula.late_import import numpy as np
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ class Rock:
 
 
 @dataclass(frozen=True)
-class Harmonic(Law):
+class Harmonic(MadeLaw):
     """q = middle − swing·cos(2π·t/period): rests at both ends and passes the middle fastest.
 
     A steady speed would jump from +v to −v at the ends, with infinite accelerations and inertia forces. ``swing`` is
@@ -91,20 +91,9 @@ class Harmonic(Law):
         share = (self.middle - np.asarray(coordinate)) / self.swing
         return np.asarray(np.arccos(np.clip(share, -1.0, 1.0)) / self.pulsation)
 
-    @classmethod
-    def fields(cls, rotary: bool) -> Mapping[str, Field]:
-        return {}
-
-    @classmethod
-    def from_values(cls, values: Mapping[str, object], rotary: bool, parameters: Mapping[str, float]) -> Law:
-        raise NotImplementedError
-
-    def text_values(self) -> Mapping[str, object]:
-        return {}
-
 
 @dataclass(frozen=True)
-class Rocking(Law):
+class Rocking(MadeLaw):
     """The law of a driver of constant speed in a cycle that rocks.
 
     ``steady``: the law of the file, whose speed is the mean one; ``machine``: the mechanism with that law and no
@@ -171,10 +160,6 @@ class Rocking(Law):
         from linkwright.drivers.constant_speed import ConstantSpeed
 
         return ConstantSpeed.fields(rotary)
-
-    @classmethod
-    def from_values(cls, values: Mapping[str, object], rotary: bool, parameters: Mapping[str, float]) -> Law:
-        raise NotImplementedError
 
     def text_values(self) -> Mapping[str, object]:
         return self.steady.text_values()
