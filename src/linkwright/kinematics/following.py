@@ -87,9 +87,7 @@ def driven_at_point(guidance: Guidance) -> Mechanism:
 def as_put_together(mechanism: Mechanism) -> Mechanism:
     """The machine to which words of assembly and the drawing belong: of one that follows a path the one driven at the
     point, else itself."""
-    laws = (each.law for each in mechanism.drivers.values())
-    guidance = next((law.guidance for law in laws if isinstance(law, Following) and law.guidance), None)
-    return mechanism if guidance is None else driven_at_point(guidance)
+    return mechanism if mechanism.guidance is None else driven_at_point(mechanism.guidance)
 
 
 class _Course:

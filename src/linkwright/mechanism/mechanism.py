@@ -136,9 +136,13 @@ class Mechanism(Frozen):
     def posed(self) -> Mechanism:
         """The machine whose drawing shows how it is put together: of one that follows a path as it is at the path's
         beginning, else itself."""
+        return self if self.guidance is None else self.guidance.posed()
+
+    @property
+    def guidance(self) -> Guidance | None:
+        """What gives the drivers without a law their coordinates in a machine that follows a path."""
         laws = (each.law for each in self.drivers.values())
-        guidance = next((law.guidance for law in laws if isinstance(law, Following) and law.guidance), None)
-        return self if guidance is None else guidance.posed()
+        return next((law.guidance for law in laws if isinstance(law, Following)), None)
 
     def dimension(self, address: str) -> float:
         """SI value of the dimension at an address such as ``crank.length``; raises for an unknown address."""
@@ -156,13 +160,22 @@ class Mechanism(Frozen):
         if address in ("gravity.x", "gravity.y"):
             return GRAVITY
         sort, name = self._owners.get(address, ("", address.partition(".")[0]))
-        by_section: dict[str, Mapping[str, Field]] = {"cycle": Cycle.fields(self.across), "path": path_fields()}
-        by_section["run"] = RunConditions.fields(self.drivers)
         element = self._elements[sort][name] if sort else None
-        fields = by_section.get(name, {}) if element is None else element.fields()
+        fields = self._section_fields(name) if element is None else element.fields()
         key = address.removeprefix(f"{getattr(element, 'section', '')}.").removeprefix(f"{name}.").partition(".")[0]
         found = (each for own, each in fields.items() if (each.key or own) == key)
         return next(found, PLACE if sort == "link" else None)
+
+    def _section_fields(self, section: str) -> Mapping[str, Field]:
+        """The keys of a section that is one table; none of another."""
+        match section:
+            case "cycle":
+                return Cycle.fields(self.across)
+            case "path":
+                return path_fields()
+            case "run":
+                return RunConditions.fields(self.drivers)
+        return {}
 
     def dimensions(self) -> dict[str, float]:
         """All addresses with their SI values, named parameters under their own names."""
