@@ -65,21 +65,29 @@ class Along(Field):
         return {"type": "array", "items": {"anyOf": [PLACE.shape(), table_schema(ARC_FIELDS)]}, "minItems": 2}
 
     def flatten(self, value: Any) -> dict[str, float]:
-        found: dict[str, float] = {}
-        for k, step in enumerate(value):
-            place, before = (step.about, f".{k}.about") if isinstance(step, Turned) else (step, f".{k}")
-            found |= {f"{before}.x": place[0], f"{before}.y": place[1]}
-            found |= {f".{k}.turn": step.turn} if isinstance(step, Turned) else {}
-        return found
+        return {
+            f".{k}{key}{end}": number
+            for k, step in enumerate(value)
+            for key, field, part in self._parts(step)
+            for end, number in field.flatten(part).items()
+        }
 
     def rebuild(self, value: Any, lookup: Callable[[str], float]) -> Any:
-        def place(before: str) -> Vec:
-            return lookup(f"{before}.x"), lookup(f"{before}.y")
+        found = []
+        for k, step in enumerate(value):
+            parts = [
+                field.rebuild(part, lambda end, at=f".{k}{key}": lookup(at + end))  # type: ignore[misc]
+                for key, field, part in self._parts(step)
+            ]
+            found.append(Turned(*parts) if isinstance(step, Turned) else parts[0])
+        return tuple(found)
 
-        return tuple(
-            Turned(place(f".{k}.about"), lookup(f".{k}.turn")) if isinstance(step, Turned) else place(f".{k}")
-            for k, step in enumerate(value)
-        )
+    @staticmethod
+    def _parts(step: Step) -> list[tuple[str, Field, Any]]:
+        """What a step consists of: suffix of the address, field, value."""
+        if isinstance(step, Turned):
+            return [(f".{key}", each, getattr(step, key)) for key, each in ARC_FIELDS.items()]
+        return [("", PLACE, step)]
 
     def written(self, value: Any) -> Any:
         return [
@@ -90,25 +98,29 @@ class Along(Field):
         ]
 
 
-#: What a file says about a path, but for the laws of the distance along it, which are those of a sliding driver.
-PATH_FIELDS: Mapping[str, Field] = {
+#: What a file says about where a path leads.
+ROUTE_FIELDS: Mapping[str, Field] = {
     "point": PointReference(required=True, doc=_("the point that follows the path")),
     "along": Along(required=True, doc=_("points [x, y] and arcs {{about: [x, y], turn: 90 deg}}, in frame axes")),
     "smooth": Flag(doc=_("true: one smooth curve through all points")),
+}
+#: What it says about a path that is passed from rest to rest.
+OVER_FIELDS: Mapping[str, Field] = {
     "over": Quantity("time", above=0.0, doc=_("time of the whole path, from rest to rest between corners")),
     "law": LawField(doc=_("motion law between corners, with over (default polynomial_5)")),
 }
 
 
 def path_laws() -> dict[str, Mapping[str, Field]]:
-    """The keys of every law that the distance along a path may have, by the one that chooses it."""
-    return {key: law.fields(rotary=False) for key, law in LAWS.items() if law.prescribed}
+    """The keys of every way to say when the point is where, by the one that chooses it: over a time, or a law of the
+    distance along the path, as of a sliding driver."""
+    return {"over": OVER_FIELDS, **{key: law.fields(rotary=False) for key, law in LAWS.items() if law.prescribed}}
 
 
 def path_fields() -> dict[str, Field]:
-    """All keys of a path, those of the laws of the distance among them."""
+    """All keys of a path."""
     laws = {key: each for fields in path_laws().values() for key, each in fields.items()}
-    return {**PATH_FIELDS, **{key: replace(each, required=False) for key, each in laws.items()}}
+    return {**ROUTE_FIELDS, **{key: replace(each, required=False) for key, each in laws.items()}}
 
 
 @dataclass(frozen=True)
@@ -246,8 +258,6 @@ class Path:
         """As plain data for a file."""
         values: dict[str, Any] = {"point": self.point, "along": self.along, "over": self.over, "law": self.law}
         values |= {"smooth": True} if self.smooth else {}
-        found = {key: PATH_FIELDS[key].written(each) for key, each in values.items() if each is not None}
-        if self.given is not None:
-            fields = self.given.fields(rotary=False)
-            found |= {key: fields[key].written(each) for key, each in self.given.text_values().items()}
-        return found
+        values |= {} if self.given is None else self.given.text_values()
+        fields = path_fields()
+        return {key: fields[key].written(each) for key, each in values.items() if each is not None}

@@ -10,7 +10,7 @@ from linkwright.actuators.base import ACTUATORS
 from linkwright.applied_loads.base import LOADS
 from linkwright.core.arguments import describe
 from linkwright.drivers.base import LAWS
-from linkwright.drivers.path import PATH_FIELDS, path_laws
+from linkwright.drivers.path import ROUTE_FIELDS, path_laws
 from linkwright.errors import Finding, ModelError, RequestError
 from linkwright.fields.base import Field, Schema, Word, table_schema
 from linkwright.fields.nodes import Node, Scalar, below
@@ -190,13 +190,9 @@ def _drivers() -> list[Schema]:
 
 
 def _path() -> Schema:
-    laws = {"over": {}, **path_laws()}
-    timed = {key for fields in laws.values() for key in fields} | {"over", "law"}
-    shared = {key: each for key, each in PATH_FIELDS.items() if key not in timed}
     forms = []
-    for key, fields in laws.items():
-        own = {each: PATH_FIELDS[each] for each in ("over", "law")} if key == "over" else fields
-        shape = table_schema({**shared, **own})
+    for key, fields in path_laws().items():
+        shape = table_schema({**ROUTE_FIELDS, **fields})
         shape["required"] = list(dict.fromkeys([*shape["required"], key]))
         forms.append({"title": key, **shape})
     return {"oneOf": forms}

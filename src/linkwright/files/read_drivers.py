@@ -203,39 +203,36 @@ def _read_law(
     laws: Mapping[str, Mapping[str, Field]],
     rotary: bool,
 ) -> Law | None:
-    chosen = [key for key in laws if key in values]
-    if not chosen and reader.has_path:
+    if reader.has_path and not any(key in values for key in laws):
         return _without_law(reader, node, place, values, laws, rotary)
+    speed = "170 rpm" if rotary else "0.1 m/s"
+    key = chosen_law(reader, node, place, values, laws, _("the driver has no law", code="model.no_law"), speed)
+    return None if key is None else LAWS[key].from_values(values, rotary, reader.values)
+
+
+def chosen_law(
+    reader: Reader,
+    node: MappingNode,
+    place: Place,
+    values: Mapping[str, Any],
+    laws: Mapping[str, Mapping[str, Field]],
+    missing: Message,
+    speed: str,
+) -> str | None:
+    """The key of the one law that a table gives, or None after findings: there is none (``missing``) or several, keys
+    of others are there, or its own cannot be read. ``speed``: an example."""
+    chosen = [key for key in laws if key in values]
     if len(chosen) != 1:
-        speed = "170 rpm" if rotary else "0.1 m/s"
-        message = (
-            _("{laws} are both present", code="model.both_laws", laws=together(chosen))
-            if chosen
-            else _("the driver has no law", code="model.no_law")
-        )
-        reader.error(
-            node,
-            place,
-            message,
-            _("give exactly one of {laws}, such as speed: {speed}", laws=tuple(laws), speed=speed),
-            "choice",
-        )
+        message = _("{laws} are both present", code="model.both_laws", laws=together(chosen)) if chosen else missing
+        remedy = _("give exactly one of {laws}, such as speed: {speed}", laws=tuple(laws), speed=speed)
+        reader.error(node, place, message, remedy, "choice")
         return None
     key = chosen[0]
-    foreign = [name for each in laws.values() for name in each if name in values and name not in laws[key]]
+    foreign = {name: None for each in laws.values() for name in each if name in values and name not in laws[key]}
     for name in foreign:
-        reader.finding(
-            node.get(name),
-            place.child(name),
-            _('"{name}" does not go with {key_}'),
-            "choice",
-            _("remove it"),
-            name=name,
-            key_=key,
-        )
-    if foreign or values.get(key) is None:
-        return None
-    return LAWS[key].from_values(values, rotary, reader.values)
+        problem = _('"{name}" does not go with {key_}', name=name, key_=key)
+        reader.error(node.get(name), place.child(name), problem, _("remove it"), "choice")
+    return None if foreign or values.get(key) is None else key
 
 
 def _without_law(

@@ -13,9 +13,9 @@ from linkwright.drivers.path import Path, Turned, path_fields, path_laws
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place
+from linkwright.files.read_drivers import chosen_law
 from linkwright.files.reader import Reader
 from linkwright.words import _
-from linkwright.words.message import together
 
 PLACE = Place("path", "path")
 
@@ -45,24 +45,9 @@ def read_path(reader: Reader, node: Node | None, drivers: Mapping[str, Driver]) 
 
 def _law(reader: Reader, node: MappingNode, values: Mapping[str, Any]) -> Law | None:
     """The law of the distance; None where the path is passed over a time, and after a finding."""
-    laws = path_laws()
-    choices = ("over", *laws)
-    chosen = [key for key in choices if key in values]
-    if len(chosen) != 1:
-        problem = (
-            _("{laws} are both present", code="model.both_laws", laws=together(chosen))
-            if chosen
-            else _("the path does not say how fast the point moves", code="model.path_no_law")
-        )
-        remedy = _("give exactly one of {laws}, such as speed: {speed}", laws=choices, speed="0.2 m/s")
-        reader.error(node, PLACE, problem, remedy, "choice")
-        return None
-    key = chosen[0]
-    own = {"over", "law"} if key == "over" else laws[key]
-    for name in [each for each in values if each not in own and each not in ("point", "along", "smooth")]:
-        problem = _('"{name}" does not go with {key_}', name=name, key_=key)
-        reader.error(node.get(name), PLACE.child(name), problem, _("remove it"), "choice")
-    if key == "over" or values.get(key) is None:
+    missing = _("the path does not say how fast the point moves", code="model.path_no_law")
+    key = chosen_law(reader, node, PLACE, values, path_laws(), missing, "0.2 m/s")
+    if key is None or key == "over":
         return None
     return LAWS[key].from_values(values, rotary=False, parameters=reader.values)
 
