@@ -67,7 +67,7 @@ class Wheels:
 
     name: str
     kind: str
-    values: dict[str, Plain]
+    values: Plain
 
 
 @dataclass
