@@ -208,6 +208,7 @@ SECTIONS = {
     "sheet": "how-to/sheets",
     "course": "how-to/course",
     "optimize": "how-to/optimisation",
+    "expect": "how-to/expectations",
 }
 
 

@@ -51,6 +51,7 @@ ATTACHED.update(
 SECTIONS.update(
     {
         "course": "linkwright.course.task:SECTION",
+        "expect": "linkwright.designs.expect.section:SECTION",
         "optimize": "linkwright.designs.optimise.problem:SECTION",
         "report": "linkwright.reports.settings:SECTION",
         "synthesis": "linkwright.synthesis.tasks:SECTION",

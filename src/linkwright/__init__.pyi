@@ -32,6 +32,9 @@ from .designs.checkpoints import checkpointing as checkpointing
 from .designs.cluster import on_cluster as on_cluster
 from .designs.compare import Comparison as Comparison
 from .designs.compare import compare as compare
+from .designs.expect.expectations import Expectation as Expectation
+from .designs.expect.expectations import Expectations as Expectations
+from .designs.expect.expectations import expectations as expectations
 from .designs.objective import Objective as Objective
 from .designs.objective import objective as objective
 from .designs.objective_terms import PathError as PathError

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
     from linkwright.applied_loads.base import Load
     from linkwright.applied_loads.phases import Phase
+    from linkwright.designs.expect.expectations import Expectations
     from linkwright.elements import Group
     from linkwright.kinematics.motion import Motion
     from linkwright.mechanism.mechanism import Mechanism
@@ -39,7 +40,13 @@ READERS = {
     "sheet": "linkwright.sheets.settings:check",
     "course": "linkwright.course.task:task",
     "optimize": "linkwright.designs.optimise.problem:problem",
+    "expect": "linkwright.designs.expect.section:expected",
 }
+#: What evaluates the section ``expect`` of a mechanism.
+EXPECTATIONS = "linkwright.designs.expect.expectations:expectations"
+NO_MECHANISM = _(
+    "expectations are those of a mechanism, which the file has not; leave --expect out", code="expect.none"
+)
 #: Finding about a load whose output never moves in a direction.
 NEVER = {
     "increasing": _("the load never acts: {output} does not increase anywhere in the cycle"),
@@ -51,10 +58,12 @@ RUBS = 2.0
 
 @dataclass(frozen=True)
 class Checked:
-    """What there is to say about a file; ``fact``: its structure, or its kind, in short, where it has one."""
+    """What there is to say about a file; ``fact``: its structure, or its kind, in short, where it has one;
+    ``expectations``: those that were asked for."""
 
     findings: Sequence[Finding]
     fact: Mapping[str, object] = field(default_factory=dict)
+    expectations: Expectations | None = None
 
     @property
     def errors(self) -> int:
@@ -68,34 +77,47 @@ class Checked:
         if "kind" in self.fact:
             return _("{name}: fine (kind {kind})", name=name, kind=self.fact["kind"])
         links, mobility = self.fact["links"], self.fact["mobility"]
-        return _(
+        fine = _(
             "{name}: fine ({links} moving links, mobility {mobility})", name=name, links=links, mobility=mobility
         )
+        if self.expectations is None and self.fact.get("expect"):
+            return _(
+                "{summary}; its {count} expectations are not evaluated: add --expect",
+                summary=fine,
+                count=self.fact["expect"],
+            )
+        return fine
 
     def data(self) -> dict[str, Any]:
         """Plain data."""
-        return {"ok": not self.errors, **self.fact, "findings": [each.data() for each in self.findings]}
+        found = {"ok": not self.errors, **self.fact, "findings": [each.data() for each in self.findings]}
+        return (
+            found
+            if self.expectations is None
+            else {**found, "expectations": self.expectations.data()["expectations"]}
+        )
 
 
-def check(source: str | Path) -> list[Finding]:
+def check(source: str | Path, *, expect: bool = False) -> list[Finding]:
     """All findings about a file, errors, warnings and notes; never raises for bad content.
 
     A machine is turned once, and the sections that only some commands read are read; calculations and tasks of
-    synthesis are checked as well.
+    synthesis are checked as well. ``expect``: whether the section ``expect`` is evaluated, too; each expectation that
+    does not hold is an error (:func:`linkwright.expectations` gives the table).
     """
-    return list(checked(source).findings)
+    return list(checked(source, expect=expect).findings)
 
 
-def checked(source: str | Path) -> Checked:
+def checked(source: str | Path, *, expect: bool = False) -> Checked:
     """The findings about a file, and what it holds in short."""
     try:
         text, place = read_source(source)
     except ModelError as error:
         return Checked(error.findings)
-    return checked_text(text, place, os.path.dirname(source), str(source))
+    return checked_text(text, place, os.path.dirname(source), str(source), expect=expect)
 
 
-def checked_text(text: str, place: str, folder: str = "", source: str = "") -> Checked:
+def checked_text(text: str, place: str, folder: str = "", source: str = "", *, expect: bool = False) -> Checked:
     """The same for a text; findings name ``place`` as the file, and ``source`` where they concern all of it.
 
     Files that it names lie in ``folder``.
@@ -105,12 +127,14 @@ def checked_text(text: str, place: str, folder: str = "", source: str = "") -> C
         from linkwright.parts.file import HEADING, read_calculation
 
         _unused, found = read_calculation(root, faults, place, folder)
-        return Checked(_with_sections(found, root, HEADING, place, folder), {"kind": kind})
+        found = _with_sections(found, root, HEADING, place, folder)
+        return Checked([*found, *_no_mechanism(source or place, expect)], {"kind": kind})
     if is_task(root):
         reader, task = Reader(place), below(root, "synthesis", "task")
         reader.table(cast(Node, root), Place("", ""), {key: HEADER[key] for key in TASK_KEYS})
         found = _with_sections([*faults, *reader.findings], root, TASK_KEYS, place, folder)
-        return Checked(found, {"kind": f"synthesis, {task.text if isinstance(task, Scalar) else ''}"})
+        kind = f"synthesis, {task.text if isinstance(task, Scalar) else ''}"
+        return Checked([*found, *_no_mechanism(source or place, expect)], {"kind": kind})
     mechanism, found = read_tree(root, faults, place)
     found = _with_sections(found, root, HEADER, place, folder)
     if mechanism is None:
@@ -118,7 +142,23 @@ def checked_text(text: str, place: str, folder: str = "", source: str = "") -> C
     rests = any(each.code == "no-motion" for each in found)
     own, fact = _of_machine(mechanism, folder, rests=rests)
     new = _placed(own, found, source or place, root, place)
-    return Checked([*found, *(new if fact else (replace(each, key="") for each in new))], fact)
+    found = [*found, *(new if fact else (replace(each, key="") for each in new))]
+    table, more = _expected(mechanism) if expect else (None, [])
+    return Checked([*found, *_placed(more, found, source or place, root, place)], fact, table)
+
+
+def _no_mechanism(where: str, expect: bool) -> list[Finding]:
+    """A note where expectations are asked for of what is no mechanism."""
+    return [Finding("note", where, "", NO_MECHANISM, code=NO_MECHANISM.code)] if expect else []
+
+
+def _expected(mechanism: Mechanism) -> tuple[Expectations | None, list[Finding]]:
+    """The expectations of a machine, and an error for each that does not hold, or that names what there is not."""
+    try:
+        table: Expectations = loaded(EXPECTATIONS)(mechanism)
+    except ModelError as error:
+        return None, list(error.findings)
+    return table, table.findings()
 
 
 def _with_sections(
@@ -185,7 +225,12 @@ def _of_machine(mechanism: Mechanism, folder: str, *, rests: bool) -> tuple[list
 
 def _facts(mechanism: Mechanism, built: Structure) -> dict[str, object]:
     """The structure in short."""
-    return {"links": len(mechanism.links), "mobility": built.mobility, "class": built.mechanism_class}
+    found: dict[str, object] = {
+        "links": len(mechanism.links),
+        "mobility": built.mobility,
+        "class": built.mechanism_class,
+    }
+    return {**found, "expect": len(mechanism.expect)} if mechanism.expect else found
 
 
 def _of_free(mechanism: Mechanism, folder: str) -> list[Finding]:

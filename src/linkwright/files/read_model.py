@@ -50,7 +50,9 @@ HEADER: Mapping[str, Field] = {
     "name": LocalizedTextField(doc=_("name of the mechanism")),
     "purpose": LocalizedTextField(doc=_("what it is for, one sentence")),
     "source": LocalizedTextField(doc=_("where it is taken from")),
-    "expected": Free(doc=_("numbers to compare results with; not interpreted")),
+    "expected": Free(
+        doc=_("numbers of a source to compare results with; not interpreted (demands that are checked: expect)")
+    ),
     "synthesis": Free(section="synthesis", doc=_("a task with its demands for the command synthesize")),
     "report": Free(doc=_("title, own text, order of sections and more for the command report"), section="report"),
     "sheet": SHEET_SECTION,
@@ -58,6 +60,10 @@ HEADER: Mapping[str, Field] = {
         section="course", doc=_("what the command variants changes, within which limits, and what it asks")
     ),
     "optimize": Free(section="optimize", doc=_("variables, objectives and demands, for the command optimize")),
+    "expect": Free(
+        section="expect",
+        doc=_("what must hold, by metric, output or fact; linkwright check --expect says whether it does"),
+    ),
     "gravity": GRAVITY,
 }
 SECTIONS = (

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pickle
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property, lru_cache
@@ -16,12 +15,13 @@ from linkwright.analysis.evaluate import unloaded
 from linkwright.analysis.of_designs import MetricsOfDesigns
 from linkwright.analysis.outputs import mechanism_outputs, usual_output
 from linkwright.core.arrays import Floats
-from linkwright.core.expressions import Expression, parse
+from linkwright.core.expressions import Expression
 from linkwright.designs.alternatives import Alternative
 from linkwright.designs.checkpoints import current_checkpoints, identity
 from linkwright.designs.cluster import current, in_turn
 from linkwright.designs.criteria import criterion
 from linkwright.designs.metrics_of_designs import side_by_side
+from linkwright.designs.named_numbers import expression_of
 from linkwright.designs.optimise.paths import PathErrors
 from linkwright.designs.optimise.problem import Problem
 from linkwright.designs.varied_dimensions import refuse_moved_positions
@@ -35,15 +35,6 @@ from linkwright.words import _
 
 #: Designs that a worker of a cluster takes at a time where they go one by one.
 FEW = 4
-#: What is meant for one number, not for an expression.
-_WORDS = re.compile(r"[^\W\d][\w.]*( [\w.]+)*")
-
-
-_NO_NUMBER = _(
-    'there is no number "{text}"; name a metric (linkwright metrics), flywheel, a summary '
-    'such as "jaw.angle range", a dimension, or an expression of names given by define:',
-    code="optimize.no_number",
-)
 
 
 class Measures:
@@ -82,23 +73,10 @@ class Measures:
 
     def _expression(self, text: str) -> tuple[Expression | None, dict[str, str]]:
         """An expression with the metrics of its names; None for a number on its own."""
-        paths = self.problem.paths
-        definition = text if text in paths else str(self.problem.define.get(text, text))
-        if self._is_number(definition):
-            return None, {"": definition}
-        defined = {name: name if name in paths else str(value) for name, value in self.problem.define.items()}
-        known = [*defined, *self.mechanism.parameters]
-        if _WORDS.fullmatch(definition) and definition not in known:
-            criterion(definition)  # raises, and offers the nearest
-        found = parse(text, known)
-        names = {name: defined.get(name, name) for name in found.names}
-        for name in names.values():
-            if not self._is_number(name):
-                raise RequestError(_NO_NUMBER.format(text=name))
-        if not names:
-            raise RequestError(_NO_NUMBER.format(text=text))
-        for name in set(names.values()) & set(self._dimensions):
-            if name in self.mechanism.expressions and name not in self.problem.addresses:
+        problem, mechanism = self.problem, self.mechanism
+        found, names = expression_of(text, mechanism, self._dimensions, define=problem.define, paths=problem.paths)
+        for name in {*names.values()} & {*self._dimensions} if found is not None else ():
+            if name in mechanism.expressions and name not in problem.addresses:
                 raise RequestError(
                     _(
                         '"{name}" follows from parameters; name the parameters in the expression instead',
@@ -107,15 +85,6 @@ class Measures:
                     )
                 )
         return found, names
-
-    def _is_number(self, name: str) -> bool:
-        if name in self._dimensions or name in self.problem.paths:
-            return True
-        try:
-            criterion(name)
-        except RequestError:
-            return False
-        return True
 
     def _moves_positions(self) -> bool:
         """Whether designs have cycles of their own, as with numbers of teeth."""

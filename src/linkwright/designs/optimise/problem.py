@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
@@ -13,6 +12,7 @@ import numpy as np
 from linkwright.core.arguments import STEPS
 from linkwright.core.arrays import Floats
 from linkwright.core.quantity import si_of, written
+from linkwright.designs.demands import KEYS, Demand, DemandText
 from linkwright.designs.objective_terms import PathError
 from linkwright.designs.ranges import Range, parse_range
 from linkwright.designs.varied_dimensions import between, checked_addresses, gives_part_of_tooth
@@ -28,8 +28,6 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _
 
 Robust = Literal["", "worst", "yield"]
-_SPAN = re.compile(r"^(?P<low>.+?)\s*\.\.\s*(?P<high>.+)$")
-_NUMBER = re.compile(r"^([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)$")
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,35 +63,6 @@ class Goal:
 
     text: str
     sign: float
-
-
-@dataclass(frozen=True)
-class Demand:
-    """A quantity that must stay between two values; ``same``: within this of the start (``share``: of its value).
-
-    Texts of values have units and are read when the quantity's dimension is known.
-    """
-
-    text: str
-    low: str = ""
-    high: str = ""
-    same: str | None = None
-
-
-@dataclass(frozen=True)
-class DemandText(Either):
-    """A demand on a number, as a text or a table."""
-
-    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Demand | None:
-        value = super().read(reader, node, place, siblings)
-        found = None if value is None else _demand(value)
-        if value is not None and found is None:
-            message = _(
-                'invalid demand "{text}"; write at least 40 deg, at most 60 kN, 1..2 m, or same within 1 %',
-                text=flow(value),
-            )
-            reader.error(node, place, message, "", "demand")
-        return found
 
 
 @dataclass(frozen=True)
@@ -184,7 +153,7 @@ SECTION = Keys(
         ),
         "maximize": Listed(Text(), _NUMBERS, alone=True, doc=_("quantities to maximize")),
         "keep": ByAddress(
-            DemandText(Value(), Table({key: Value() for key in ("at_least", "at_most", "same")})),
+            DemandText(Value(), Table({**KEYS, "same": Value()})),
             doc=_("demands on numbers: at least 40 deg, at most 60 kN, 1..2 m, same within 1 % of the start"),
         ),
         "define": ByAddress(
@@ -392,31 +361,6 @@ def _rising(found: Range) -> None:
                 code="optimize.falling",
             ).format(address=found.address, **bounds)
         )
-
-
-def _demand(value: Any) -> Demand | None:
-    """``at least 40 deg``, ``at most 60 kN``, ``1 m..2 m``, ``same``, ``same within 1 %``, or a mapping of these."""
-    if isinstance(value, Mapping):
-        texts = {key: str(each) for key, each in value.items()}
-        return Demand("", texts.get("at_least", ""), texts.get("at_most", ""), texts.get("same")) if texts else None
-    plain = str(value).strip()
-    for head in ("at least", "at most", "same within", "same"):
-        if plain.startswith(head):
-            rest = plain[len(head) :].strip()
-            if (head == "same" and rest) or (head != "same" and not rest):
-                return None
-            if head.startswith("same"):
-                return Demand("", same=rest or "1e-6 %")
-            return Demand("", low=rest) if head == "at least" else Demand("", high=rest)
-    span = _SPAN.match(plain)
-    if span is None:
-        return None
-    low, high = span["low"].strip(), span["high"].strip()
-    unit = _NUMBER.match(high)
-    bare = _NUMBER.match(low)
-    if bare is not None and not bare[2] and unit is not None:
-        low = f"{low} {unit[2]}".strip()
-    return Demand("", low, high)
 
 
 def _empty(value: Any) -> bool:

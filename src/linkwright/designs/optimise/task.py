@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,41 +10,22 @@ from itertools import product
 
 import numpy as np
 
-from linkwright import units
 from linkwright.core.arrays import Floats
+from linkwright.designs.demands import Bounds, bounds_of
 from linkwright.designs.optimise.measures import Measures
-from linkwright.designs.optimise.problem import Demand, Problem
+from linkwright.designs.optimise.problem import Problem
 from linkwright.errors import Finding, ModelError, QuantityError
-from linkwright.words import _
 
 #: A number, and 1 where it must not become larger, -1 where it must not become smaller.
 Side = tuple[str, float]
-#: Samples of the tolerances while searching, where designs go one by one, and at the end; a violation below this
-#: share of a demand is none.
-SAMPLES, SAMPLES_ALONE, CHECKED, MET = 64, 16, 512, 1e-6
+#: Samples of the tolerances while searching, where designs go one by one, and at the end.
+SAMPLES, SAMPLES_ALONE, CHECKED = 64, 16, 512
 #: Other samples that say what share of the machines meets the demands: those that chose a design flatter it.
 OTHERS = 8192
 #: Most toleranced dimensions all of whose corners are tried.
 ALL_CORNERS = 4
 #: Places between its bounds at which a variable is tried for an effect; numbers differ by less where it has none.
 PROBED, SAME = (0.0, 0.35, 1.0), 1e-9
-_SHARE = re.compile(r"^(\d+\.?\d*(?:[eE][+-]?\d+)?)\s*%$")
-
-
-@dataclass(frozen=True)
-class Bounds:
-    """A demand in SI: the quantity lies between ``low`` and ``high``; ``scale``: what counts as much."""
-
-    text: str
-    low: float
-    high: float
-    scale: float
-
-    def violation(self, value: Floats) -> Floats:
-        """By how much a value misses, in scales; 0 where it is met."""
-        with np.errstate(invalid="ignore"):
-            miss = np.maximum(self.low - value, value - self.high) / self.scale
-            return np.where(miss > MET, miss, 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -287,7 +267,8 @@ class Task:
         found = []
         for demand in self.problem.demands:
             try:
-                found.append(self._bound(demand))
+                text = demand.text
+                found.append(bounds_of(demand, self.measures.dimension(text), self.at_start[text]))
             except QuantityError as error:
                 place = self.problem.mechanism.name
                 key = f"optimize.keep.{demand.text}"
@@ -295,62 +276,3 @@ class Task:
         if findings:
             raise ModelError(findings)
         return tuple(found)
-
-    def _bound(self, demand: Demand) -> Bounds:
-        kind, start = self.measures.dimension(demand.text), self.at_start[demand.text]
-        if demand.same is not None:
-            share = _SHARE.match(demand.same)
-            if not np.isfinite(start):
-                raise QuantityError(
-                    _(
-                        'the start has no value of "{text}", so it cannot stay the same; demand a range',
-                        text=demand.text,
-                    ),
-                    code="no-start",
-                )
-            within = float(share[1]) / 100 * abs(start) if share else self._value(demand.same, kind, demand.text)
-            within = max(within, 1e-12 * abs(start))
-            return Bounds(demand.text, start - within, start + within, max(within, 1e-3 * abs(start)))
-        low = self._value(demand.low, kind, demand.text) if demand.low else -np.inf
-        high = self._value(demand.high, kind, demand.text) if demand.high else np.inf
-        if low > high:
-            message = _(
-                "the range falls from {low} to {high}; write the lower value first", low=demand.low, high=demand.high
-            )
-            raise QuantityError(message, code="falling-demand")
-        sizes = [abs(each) for each in (low, high) if np.isfinite(each) and each] or [abs(start)]
-        return Bounds(demand.text, low, high, max(sizes) if np.isfinite(max(sizes)) and max(sizes) > 0 else 1.0)
-
-    def _value(self, text: str, kind: units.Dimension, name: str) -> float:
-        number, unit = _split(text)
-        factor, dimension = units.unit(unit) if unit else (1.0, units.NONE)
-        if dimension != kind:
-            symbol = units.usual_symbol(kind)
-            values = {"text": name, "need": units.name_of(kind), "given": text, "right": f"{number:.12g} {symbol}"}
-            if symbol:
-                raise QuantityError(
-                    _(
-                        '"{text}" is {need}, and "{given}" is not; write its unit, as in {right}',
-                        code="optimize.unit",
-                        **values,
-                    ),
-                    code="wrong-dimension",
-                )
-            raise QuantityError(
-                _(
-                    '"{text}" is {need}, and "{given}" is not; write a number without a unit',
-                    code="optimize.no_unit",
-                    **values,
-                ),
-                code="missing-unit",
-            )
-        return number * factor
-
-
-def _split(text: str) -> tuple[float, str]:
-    match = re.match(r"^([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*)$", text.strip())
-    if match is None:
-        raise QuantityError(
-            _('invalid value "{text}"; write a number with its unit, such as 40 deg', text=text), code="quantity"
-        )
-    return float(match[1]), match[2].strip()

@@ -1,0 +1,1 @@
+"""Expectations: what must hold for a machine, written in its model file."""

@@ -1,0 +1,110 @@
+"""What the subjects of expectations come to in a machine, exact between the positions of its cycle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+from linkwright import units
+from linkwright.analysis import Analysis
+from linkwright.analysis.by_name import Asked as OfOutput
+from linkwright.analysis.by_name import needs_forces
+from linkwright.analysis.evaluate import unloaded
+from linkwright.analysis.outputs import usual_output
+from linkwright.core.arguments import STEPS
+from linkwright.core.outputs import Output
+from linkwright.designs.alternatives import Alternative
+from linkwright.designs.criteria import criterion
+from linkwright.designs.expect.facts import FACTS
+from linkwright.designs.expect.section import Asked
+from linkwright.designs.ranges import dimension_of
+from linkwright.errors import LinkwrightError, RequestError
+from linkwright.kinetostatics.run import solve_forces
+from linkwright.machine.flywheel import FLUCTUATION
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.units import powers
+from linkwright.words import _
+
+
+class Value(NamedTuple):
+    """A word, or a number, SI, of a dimension with its ``name`` where it has one; ``last``: the largest of an output
+    over the cycle, whose smallest is the number; ``turns``: whether full turns count for nothing."""
+
+    number: float | str
+    kind: units.Dimension = units.NONE
+    name: str = ""
+    last: float | None = None
+    turns: bool = False
+
+
+class _Moving(Alternative):
+    """The machine where numbers of its motion alone are asked for."""
+
+    @cached_property
+    def analysis(self) -> Analysis:
+        return Analysis.of(self.motion)
+
+
+@dataclass(frozen=True)
+class Values:
+    """Finds values of one machine; what they share is solved once."""
+
+    mechanism: Mechanism
+
+    @cached_property
+    def _output(self) -> Output:
+        return usual_output(self.mechanism)
+
+    @cached_property
+    def _moving(self) -> Alternative:
+        return _Moving(self.mechanism.name, self.mechanism, self._output, STEPS, FLUCTUATION)
+
+    @cached_property
+    def _loaded(self) -> Alternative:
+        return Alternative(self.mechanism.name, self.mechanism, self._output, STEPS, FLUCTUATION)
+
+    @cached_property
+    def _dimensions(self) -> dict[str, float]:
+        return self.mechanism.dimensions()
+
+    def of(self, asked: Asked) -> Value:
+        """The value of an entry's subject; raises LinkwrightError where it has none."""
+        subject = asked.subject
+        if subject.fact:
+            return Value(FACTS[subject.fact].find(self.mechanism))
+        if subject.at is not None:
+            return self._at(asked)
+        if subject.output is not None:
+            low, high = (self._number(f"{asked.of} {end}") for end in ("min", "max"))
+            return low._replace(last=float(high.number))
+        found = {name: self._number(each) for name, each in (subject.numbers or {}).items()}
+        if subject.expression is None:
+            return found[""]
+        kind = subject.expression.dimension({name: each.kind for name, each in found.items()})
+        return Value(subject.expression.evaluate({name: float(each.number) for name, each in found.items()}), kind)
+
+    def _number(self, name: str) -> Value:
+        """A dimension, a metric or a summary."""
+        if name in self._dimensions:
+            return Value(self._dimensions[name], dimension_of(self.mechanism, name) or units.NONE)
+        own = OfOutput(self._output, FLUCTUATION)
+        forces = needs_forces(name, self.mechanism, own)
+        if forces and (missing := unloaded(self.mechanism, [name])) is not None:
+            raise RequestError(missing)
+        machine = self._loaded if forces else self._moving
+        found = criterion(name).measure(machine)
+        if found is None:
+            notes = machine.notes[-1:] or [_("it does not apply to this machine", code="expect.inapplicable")]
+            raise LinkwrightError(notes[0])
+        return Value(found.value, powers(found.dimension), found.dimension)
+
+    def _at(self, asked: Asked) -> Value:
+        """An output at one position, which the machine reaches from where its cycle begins."""
+        subject = asked.subject
+        assert subject.at is not None and subject.output is not None
+        motion = subject.at.solved(self.mechanism, failures="raise")
+        result = motion if subject.output.of_motion else solve_forces(motion)
+        value = Analysis.of(result).signal(asked.of)(result)
+        name = subject.output.dimension
+        return Value(float(value[0]), powers(name), name, turns=subject.output.kind == "angle")
