@@ -44,9 +44,7 @@ READERS = {
 }
 #: What evaluates the section ``expect`` of a mechanism.
 EXPECTATIONS = "linkwright.designs.expect.expectations:expectations"
-NO_MECHANISM = _(
-    "expectations are those of a mechanism, which the file has not; leave --expect out", code="expect.none"
-)
+NO_MECHANISM = _("expectations are those of a mechanism, which the file has not; leave --expect out")
 #: Finding about a load whose output never moves in a direction.
 NEVER = {
     "increasing": _("the load never acts: {output} does not increase anywhere in the cycle"),
@@ -149,7 +147,7 @@ def checked_text(text: str, place: str, folder: str = "", source: str = "", *, e
 
 def _no_mechanism(where: str, expect: bool) -> list[Finding]:
     """A note where expectations are asked for of what is no mechanism."""
-    return [Finding("note", where, "", NO_MECHANISM, code=NO_MECHANISM.code)] if expect else []
+    return [Finding("note", where, "", NO_MECHANISM, code="no-expectations")] if expect else []
 
 
 def _expected(mechanism: Mechanism) -> tuple[Expectations | None, list[Finding]]:

@@ -16,6 +16,8 @@ from linkwright.words import _
 
 #: What is meant for one number, not for an expression.
 _WORDS = re.compile(r"[^\W\d][\w.]*( [\w.]+)*")
+#: What is meant for an expression, though it may begin as a metric with its subject does.
+_FORMULA = re.compile(r"\s[-+*/^]|[-+*/^]\s|[()]")
 _NO_NUMBER = _(
     'there is no number "{text}"; name a metric (linkwright metrics), flywheel, a summary '
     'such as "jaw.angle range", a dimension, or an expression of names given by define:',
@@ -27,6 +29,8 @@ def is_number(name: str, known: Collection[str]) -> bool:
     """Whether a text names a number: one of those that are ``known``, a metric, or a summary."""
     if name in known:
         return True
+    if _FORMULA.search(name):
+        return False
     try:
         criterion(name)
     except RequestError:

@@ -33,7 +33,7 @@ HEAD = (
     pgettext("expect", "verdict"),
 )
 #: What a file without expectations is answered.
-NONE = _("{name!r} has no expectations", code="expect.none")
+NONE = _("{name!r} has no expectations")
 HOW = _(
     "write what must hold in a section expect, such as expect: {{mobility: 1, {example}}}; "
     "names are those of linkwright metrics and of outputs"
@@ -123,15 +123,15 @@ class Expectation:
         """The error that it does not hold, at its key."""
         about, key = self.label, f"expect.{self.name}"
         if self.value is None:
-            message = _("{name} has no value here: {cause}", code="expect.no_value", name=about, cause=self.reason)
-            return Finding("error", "", key, message, "", "expect.no_value")
+            message = _("{name} has no value here: {cause}", name=about, cause=self.reason)
+            return Finding("error", "", key, message, "", "no-value")
         texts = {"name": about, "found": self.found, "expected": self.expected, "off": self._shown(abs(self.off))}
-        template = _("{name} is {found}, expected: {expected}", code="expect.not_met")
+        template = _("{name} is {found}, expected: {expected}")
         if self.off > 0:
-            template = _("{name} is {found}, expected: {expected} ({off} too large)", code="expect.not_met")
+            template = _("{name} is {found}, expected: {expected} ({off} too large)")
         elif self.off < 0:
-            template = _("{name} is {found}, expected: {expected} ({off} too small)", code="expect.not_met")
-        return Finding("error", "", key, template.format(**texts), self._remedy(), "expect.not_met")
+            template = _("{name} is {found}, expected: {expected} ({off} too small)")
+        return Finding("error", "", key, template.format(**texts), self._remedy(), "not-met")
 
     def _remedy(self) -> Message:
         if self.demand.equals and not self.demand.within and self.of not in FACTS:
@@ -185,15 +185,13 @@ class Expectations(Tabular):
     def findings(self) -> list[Finding]:
         """An error for every expectation that does not hold; a note where there is none."""
         if not self.rows:
-            return [Finding("note", "", "", NONE.format(name=self.name), self.how, "expect.none")]
+            return [Finding("note", "", "", NONE.format(name=self.name), self.how, "no-expectations")]
         found, causes = [], set[str]()
         for each in self.rows:
             if not each.holds:
                 finding = each.finding()
                 if each.reason and str(each.reason) in causes:
-                    message = _(
-                        "{name} has no value here for the same reason", code="expect.no_value", name=each.name
-                    )
+                    message = _("{name} has no value here for the same reason", name=each.name)
                     finding = replace(finding, message=message)
                 causes.add(str(each.reason))
                 found.append(finding)
