@@ -7,6 +7,9 @@ from itertools import combinations
 
 from linkwright.importers.layout import FRAME, Body, Layout
 
+#: Keys of pairs of wheels that name links.
+WHEEL_KEYS = {"links", "carrier", "pinion", "rack"}
+
 
 def join_rigid(layout: Layout) -> dict[str, str]:
     """Joins bodies that share two distinct points, and three bodies pinned in a triangle, as long as there are any.
@@ -81,6 +84,16 @@ def _join(layout: Layout, kept: str, name: str) -> None:
     for drive in layout.drives:
         drive.turn = kept if drive.turn == name else drive.turn
         drive.against = kept if drive.against == name else drive.against
+        if drive.between is not None:
+            (a, one), (b, other) = drive.between
+            drive.between = (kept if a == name else a, one), (kept if b == name else b, other)
+    for wheels in layout.wheels:
+        for key in WHEEL_KEYS & wheels.values.keys():
+            value = wheels.values[key]
+            if isinstance(value, list):
+                wheels.values[key] = [kept if each == name else each for each in value]
+            elif value == name:
+                wheels.values[key] = kept
     layout.traced = [
         f"{kept}.{each.split('.')[1]}" if each.startswith(f"{name}.") else each for each in layout.traced
     ]
