@@ -105,9 +105,8 @@ class Reader:
         name = self.bodies.names[connector.number]
         against = FRAME if connector.anchor else self._carrier(connector, body)
         if against is None:
-            self._remark(
-                "warning", _("this input turns no link against another; it is left out"), _("make it an anchor if it is to be fixed"), connector
-            )
+            message = _("this input turns no link against another; it is left out")
+            self._remark("warning", message, _("make it an anchor if it is to be fixed"), connector)
             return
         speed = -connector.rpm * math.pi / 30
         if not connector.rpm and self.answers.speed is not None:
