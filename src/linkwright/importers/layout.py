@@ -49,7 +49,9 @@ class Slide:
     """A guide line of body ``guide`` on which the point ``at`` of body ``block`` moves, which does not turn on it.
 
     The line runs through the guide's point ``through``, in a ``direction`` in frame axes at the start (rad), or from
-    one of its points to another. A pin that slides in a slot is a block of one point on the pin.
+    one of its points to another. A pin that slides in a slot is a block of one point on the pin. ``offset`` of the
+    point from the line (m) and the line's angle in the block, ``block_angle`` (rad), follow from where things lie,
+    unless they are given here.
     """
 
     name: str
@@ -58,6 +60,8 @@ class Slide:
     direction: float | tuple[str, str]
     block: str
     at: str
+    offset: float | None = None
+    block_angle: float | None = None
 
 
 @dataclass
@@ -122,7 +126,7 @@ class Layout:
     forces: list[Force] = field(default_factory=list)
     loads: dict[str, Plain] = field(default_factory=dict)
     gravity: Vec = (0.0, 0.0)
-    cycle: Plain | None = None
+    cycle: Plain | str | None = None
     traced: list[str] = field(default_factory=list)
 
     def body(self, name: str) -> Body:

@@ -21,6 +21,8 @@ def shortest(value: float, tolerance: float = 0.0) -> str:
     """The shortest decimal number within a tolerance of a value; 0: the one that reads back as the same float."""
     if not tolerance or not math.isfinite(value):
         return number(value + 0.0)
+    if abs(value) <= tolerance:
+        return "0"
     for digits in range(1, 18):
         text = f"{value:.{digits}g}"
         if abs(float(text) - value) <= tolerance:
@@ -149,10 +151,14 @@ class Writer:
         found["direction"] = direction or self.angle(line - self.axis(slide.guide), self.size)
         found |= {"block": slide.block, "at": slide.at}
         through, at = guide.places[slide.through], self.layout.body(slide.block).places[slide.at]
-        offset = math.cos(line) * (at[1] - through[1]) - math.sin(line) * (at[0] - through[0])
+        offset = slide.offset
+        if offset is None:
+            offset = math.cos(line) * (at[1] - through[1]) - math.sin(line) * (at[0] - through[0])
         if abs(offset) > self.tolerance:
             found["offset"] = self.length(offset)
-        turned = math.remainder(line - self.axis(slide.block), 2 * math.pi)
+        turned = slide.block_angle
+        if turned is None:
+            turned = math.remainder(line - self.axis(slide.block), 2 * math.pi)
         if abs(turned) * self.size > self.tolerance:
             found["block_angle"] = self.angle(turned, self.size)
         return found

@@ -20,7 +20,7 @@ def join_rigid(layout: Layout) -> dict[str, str]:
     while (found := _rigid(layout)) is not None:
         kept, *others = sorted(found, key=lambda name: name != FRAME)
         for name in others:
-            _join(layout, kept, name)
+            join(layout, kept, name)
             gone[name] = kept
     return {name: _last(gone, name) for name in gone}
 
@@ -60,7 +60,7 @@ def _corners(a: Body, b: Body, ab: str, ac: str, bc: str, size: float) -> bool:
     return abs((x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)) > 1e-6 * size * size
 
 
-def _join(layout: Layout, kept: str, name: str) -> None:
+def join(layout: Layout, kept: str, name: str) -> None:
     """Makes a body a part of another one; masses add up about their common centre."""
     body, target = layout.bodies.pop(name), layout.body(kept)
     if target.mass and body.mass and target.centre and body.centre:
