@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib.resources import files
 from math import cos, radians, sin
 
 import pytest
@@ -111,6 +112,18 @@ gravity: [0, -9.81 m/s²]
     assert found.accelerations == pytest.approx(expected, rel=1e-10, abs=1e-10)
     assert found.outcome == "moves"
     assert found.forces.balance_residual[0] < 1e-10
+
+
+def test_a_crank_without_mass_carries_nothing_where_its_yoke_sticks() -> None:
+    """Nothing pushes the yoke along its guide, so that all joints in line with it rest with it, without a force."""
+    text = (files("linkwright") / "gallery/scotch_yoke.yaml").read_text(encoding="utf-8")
+    pins = "joints:\n" + "".join(f"  {name}: {{kind: revolute, pin_radius: 20 mm, friction: 0.4}}\n" for name in "OA")
+    text = text.replace("joints:\n", pins).replace("at: Y}", "at: Y, friction: 0.4}") + "gravity: [0, -9.81 m/s²]\n"
+    found = lw.release(lw.loads(text), at=0.1)
+    assert found.outcome == "sticks"
+    assert 0.0 <= found.friction_used <= 1.0
+    assert found.forces.reaction("A", on="die")[0] == pytest.approx([0.0, 0.0], abs=1e-9)
+    assert found.forces.reaction("guide", on="yoke")[0] == pytest.approx([0.0, 4.0 * 9.81], rel=1e-9)
 
 
 def test_a_load_at_a_dead_point_of_its_way() -> None:

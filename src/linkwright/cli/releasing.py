@@ -16,7 +16,8 @@ from linkwright.cli.solving import Solved, data, input_text, named_columns
 from linkwright.core.table import Amount, Cell, Table
 from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.release import Release, released
-from linkwright.dynamics.states import forces_at, motion_at, together
+from linkwright.dynamics.samples import Samples
+from linkwright.dynamics.states import forces_at, motion_at
 from linkwright.errors import Finding
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _, pgettext
@@ -45,8 +46,7 @@ def free_run(mechanism: Mechanism, warnings: list[Finding], options: Options, se
         else:
             session.show("\n\n\n".join(page.text() for page in pages))
         return 0
-    states = together([each.states for each in found])
-    motion = motion_at(states)
+    motion = motion_at(Samples.apart([each.moment for each in found]))
     solved = Solved(motion, forces_at(motion), np.arange(motion.steps), tuple(warnings))
     table = data(solved, options) | {"released": [_data(each) for each in found]}
     if options.output is not None:

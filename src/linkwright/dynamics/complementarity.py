@@ -8,6 +8,8 @@ from linkwright.core.arrays import Floats
 
 #: Sweeps at most, and the change that ends them.
 SWEEPS, CHANGE = 20_000, 1e-15
+#: A sum of vectors of length 1, their shares one together, that is zero but for rounding.
+CANCEL = 1e-9
 
 
 def shares(first: Floats, gains: Floats, most: Floats) -> Floats:
@@ -31,3 +33,13 @@ def shares(first: Floats, gains: Floats, most: Floats) -> Floats:
         if change <= CHANGE:
             break
     return found
+
+
+def one_way(rows: Floats) -> bool:
+    """Whether some vector (n,) has a positive product with each of the ``rows`` (k, n): none does where rows with
+    shares of which none is negative cancel (Gordan's theorem)."""
+    from scipy.optimize import nnls
+
+    units = rows / np.linalg.norm(rows, axis=1, keepdims=True)
+    sums = np.vstack([units.T, np.ones(len(rows))])
+    return bool(nnls(sums, np.append(np.zeros(rows.shape[1]), 1.0))[1] > CANCEL)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
@@ -50,8 +51,8 @@ class Piece:
     @classmethod
     def resting(cls, system: System, t: float, y: Floats) -> Piece:
         """The moment at which a machine has come to rest."""
-        state = y.copy()
-        return cls(system, system.holding.copy(), t, [lambda _time: state], [t], system.carried, [system.carried])
+        state, carried = partial(_kept, y.copy()), system.carried
+        return cls(system, system.holding.copy(), t, [state], [t], carried, [carried])
 
     @property
     def end(self) -> float:
@@ -66,6 +67,10 @@ class Piece:
         """States (2 n + 1, times)."""
         found = [self.dense[k](time) for k, time in zip(self.steps(times), times.tolist(), strict=True)]
         return np.column_stack(found) if found else np.empty((2 * len(self.system.free) + 1, 0))
+
+
+def _kept(state: Floats, _time: float) -> Floats:
+    return state
 
 
 class StepTooSmall(Exception):

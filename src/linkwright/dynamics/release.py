@@ -13,8 +13,9 @@ from linkwright.core.arguments import require
 from linkwright.core.arrays import Floats
 from linkwright.core.attached import attached
 from linkwright.dynamics.equation import EquationOfMotion
-from linkwright.dynamics.setting_out import Outcome, SettingOut
-from linkwright.dynamics.states import FoundForces, FoundMotion, FoundStates, forces_at, motion_at
+from linkwright.dynamics.samples import Samples
+from linkwright.dynamics.setting_out import Outcome, set_out
+from linkwright.dynamics.states import FoundForces, FoundMotion, forces_at, motion_at
 from linkwright.errors import RequestError
 from linkwright.kinematics.positions import Positions, at_times
 from linkwright.mechanism.mechanism import Mechanism
@@ -55,20 +56,17 @@ class Release:
         return {name: float(second[0]) for name, (_q, _w, second) in self.motion.positions.coordinates.items()}
 
     @property
-    def states(self) -> FoundStates:
+    def moment(self) -> Samples:
         """What its motion and forces are read from."""
         found = self.motion.found
-        assert isinstance(found, FoundStates)
+        assert isinstance(found, Samples)
         return found
 
     @cached_property
     def _terms(self) -> tuple[Floats, Floats, float]:
         free = self.equation.free
         names = [f"M:{a}:{b}" for a in free for b in free] + [f"h:{a}" for a in free] + ["kinetic"]
-        found = self.states
-        rows = sum(share * self.equation.evaluate(names, {**found.given, **held}, 1) for share, held in found.held)
-        values = np.asarray(rows)[:, 0]
-        n = len(free)
+        values, n = self.moment.outputs(names)[:, 0], len(free)
         return values[: n * n].reshape(n, n), values[n * n : -1], float(values[-1])
 
     @property
@@ -84,8 +82,9 @@ class Release:
     @cached_property
     def friction_used(self) -> float:
         """How much of the friction that there could be holds a mechanism of one freedom that sticks, 0 to 1."""
-        shares = [float(np.ravel(share)[0]) for share, _held in self.states.held]
-        return abs(shares[0] - shares[1]) if self.outcome == "sticks" and len(shares) == 2 else 1.0
+        if self.outcome != "sticks" or len(self.equation.free) != 1:
+            return 1.0
+        return abs(2.0 * float(self.moment.parts[0].shares[0, 0]) - 1.0)
 
     @property
     def verdict(self) -> Message:
@@ -170,10 +169,8 @@ def release(
 
 def released(equation: EquationOfMotion, *, at: Inputs = None, speed: Inputs = None, time: float = 0.0) -> Release:
     """The same of a mechanism whose equation of motion is there already."""
-    setting = SettingOut(equation, _start(equation, at, speed, float(time)))
-    setting.require_reached()
-    shares, second, outcome, ways = setting.outcome()
-    motion = motion_at(setting.found(shares, second))
+    moment, outcome, ways = set_out(equation, _start(equation, at, speed, float(time)))
+    motion = motion_at(moment)
     named = tuple(dict(zip(equation.free, way.tolist(), strict=True)) for way in ways)
     return Release(equation, motion, forces_at(motion), outcome, named)
 

@@ -99,7 +99,7 @@ class Run(PlotMixin):
             )
         within = locked(np.minimum(time, self.end))
         if self._sampled is None or not np.array_equal(self._sampled.time, within):
-            self._sampled = Samples(self.equation, self.pieces, within)
+            self._sampled = Samples.of(self.equation, self.pieces, within)
         return self._sampled
 
     def motion(self, steps: int = STEPS, times: ArrayLike | None = None) -> FoundMotion:

@@ -26,24 +26,32 @@ from linkwright.kinetostatics.solver import ForceSolver
 
 @dataclass
 class Samples:
-    """A run at ``time`` (n,) s within its ``pieces``, which are one after the other."""
+    """States of a machine at n times, those of each piece a part; ``cycle``: they follow each other as one motion."""
 
     equation: EquationOfMotion
-    pieces: Sequence[Piece]
-    time: Floats
+    parts: Sequence[Part]
+    cycle: bool = True
     states: Mapping[str, Floats] = field(default_factory=dict)
     modes: Mapping[str, Floats] = field(default_factory=dict)
 
+    @classmethod
+    def of(cls, equation: EquationOfMotion, pieces: Sequence[Piece], time: Floats) -> Samples:
+        """A run at ``time`` (n,) s within its ``pieces``, which are one after the other."""
+        ends = np.array([piece.end for piece in pieces])
+        which = np.minimum(np.searchsorted(ends, time, side="right"), len(ends) - 1)
+        parts = [Part(equation, piece, time[which == k]) for k, piece in enumerate(pieces) if (which == k).any()]
+        return cls(equation, parts)
+
+    @classmethod
+    def apart(cls, found: Sequence[Samples]) -> Samples:
+        """Samples of one equation, one after the other, each for itself."""
+        states = {name: np.concatenate([each.states[name] for each in found]) for name in found[0].states}
+        return cls(found[0].equation, [part for each in found for part in each.parts], cycle=False, states=states)
+
     @cached_property
-    def parts(self) -> list[Part]:
-        """The times of each piece."""
-        ends = np.array([piece.end for piece in self.pieces])
-        which = np.minimum(np.searchsorted(ends, self.time, side="right"), len(ends) - 1)
-        return [
-            Part(self.equation, piece, self.time[which == k])
-            for k, piece in enumerate(self.pieces)
-            if (which == k).any()
-        ]
+    def time(self) -> Floats:
+        """(n,) s."""
+        return np.concatenate([part.time for part in self.parts])
 
     @cached_property
     def course(self) -> dict[str, tuple[Floats, Floats, Floats]]:
@@ -57,7 +65,7 @@ class Samples:
     @property
     def positions(self) -> Positions:
         """The same as positions of a motion."""
-        return Positions(self.time, self.course, self.equation.rotary, cycle=True)
+        return Positions(self.time, self.course, self.equation.rotary, cycle=self.cycle)
 
     @property
     def work(self) -> Floats:
@@ -79,6 +87,8 @@ class Samples:
 
 #: How rows of drivers' efforts and of angles with turns begin.
 EFFORT, TURNED = row_name("effort") + ":", row_name("turned_angle") + ":"
+#: Coordinate, rate and second derivative by name, (n,) each.
+Course = Mapping[str, tuple[Floats, Floats, Floats]]
 #: Outputs (names, n) at inputs (n,) by name.
 Evaluate = Callable[[Mapping[str, Floats]], Floats]
 
@@ -90,6 +100,12 @@ class Part:
         self.first, self.piece, self.time = first, piece, time
         self.system, self.equation = piece.system, piece.system.equation
         self.states = piece.at(time)
+
+    def going(self, course: Course) -> Part:
+        """The same positions with other rates and accelerations, what holds as it is."""
+        other = Part(self.first, self.piece, self.time)
+        other._course, other.shares = dict(course), self.shares
+        return other
 
     @cached_property
     def _found(self) -> tuple[Floats, Floats, Floats]:
@@ -214,9 +230,29 @@ class Part:
         return evaluate(given) if point is None else read_across(point, evaluate, given)
 
     def _between(self, evaluate: Evaluate) -> Floats:
-        found = self._across(evaluate, self.given)
-        base = found.copy()
-        for row, group in enumerate(self.piece.holding.stick):
-            other = self._across(evaluate, self.given | self._switches(self._sides(group)))
-            found = found + self._found[1][row] * (other - base)
-        return found
+        base, turns = self._turns(evaluate)
+        return np.asarray(base + np.einsum("kn,krn->rn", self.shares, turns)) if len(turns) else base
+
+    def _turns(self, evaluate: Evaluate) -> tuple[Floats, Floats]:
+        """Outputs where all that sticks is on the side below, and how they change where a group is above (groups,
+        outputs, n)."""
+        base = self._across(evaluate, self.given)
+        above = [self.given | self._switches(self._sides(group)) for group in self.piece.holding.stick]
+        return base, np.array([self._across(evaluate, given) - base for given in above])
+
+    @cached_property
+    def shares(self) -> Floats:
+        """Share of the side above in what holds of each group that sticks, (groups, n).
+
+        Where joints rub, forces are not linear in accelerations, so that shares by which these are zero leave
+        efforts: the free inputs have none, where any shares do so.
+        """
+        of_accelerations = self._found[1][: len(self.piece.holding.stick)]
+        if not len(of_accelerations) or not self.equation.rubs:
+            return of_accelerations
+        program = self.equation.row_program([row_name("effort", name) for name in self.equation.free], forces=True)
+        base, turns = self._turns(lambda given: self.equation.run(program, given, len(given["time"])))
+        steps = range(len(self.time))
+        found = np.array([np.linalg.lstsq(turns[:, :, k].T, -base[:, k], rcond=None)[0] for k in steps]).T
+        between = ((found >= 0.0) & (found <= 1.0)).all(axis=0)
+        return np.where(between, found, of_accelerations)

@@ -6,16 +6,14 @@ its comparisons held as they are there.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import ClassVar, Protocol
 
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.inputs import Input
 from linkwright.dynamics.equation import EquationOfMotion
-from linkwright.formula.program import Program
 from linkwright.formula.trace import Scalar
 from linkwright.kinematics.motion import Motion, Rows
 from linkwright.kinematics.positions import Positions
@@ -46,64 +44,6 @@ class Found(Protocol):
     def values(self, outputs: Callable[[ForceSolver], dict[str, Scalar]]) -> Floats:
         """Values of the trace of motion and forces by any names, (outputs, n), that it names of a solver."""
         ...
-
-
-@dataclass
-class FoundStates:
-    """States at n times: ``held`` are switches by name, (n,) each, with their share in what acts: one alone where all
-    that rubs slides, those of both senses where it sticks."""
-
-    equation: EquationOfMotion
-    positions: Positions
-    held: Sequence[tuple[Floats | float, Given]]
-    states: Mapping[str, Floats] = field(default_factory=dict)
-    modes: Mapping[str, Floats] = field(default_factory=dict)
-    _programs: dict[tuple[str, ...], Program] = field(default_factory=dict, init=False, repr=False)
-
-    @property
-    def given(self) -> dict[str, Floats | float]:
-        """Inputs of the programs but for the switches."""
-        found: dict[str, Floats | float] = {"time": self.positions.time, **self.states, **self.modes}
-        for name, (q, rate, second) in self.positions.coordinates.items():
-            found |= {f"q:{name}": q, f"qd:{name}": rate, Input("second", name).name: second}
-        return found
-
-    def rows(self, names: tuple[str, ...], *, forces: bool) -> Floats:
-        """As :meth:`Found.rows`."""
-        key = (*names, str(forces))
-        if key not in self._programs:
-            self._programs[key] = self.equation.row_program(names, forces=forces)
-        return self._blended(self._programs[key])
-
-    def values(self, outputs: Callable[[ForceSolver], dict[str, Scalar]]) -> Floats:
-        """As :meth:`Found.values`."""
-        return self._blended(self.equation.value_program(outputs(self.equation.forces)))
-
-    def _blended(self, program: Program) -> Floats:
-        found = [
-            share * self.equation.run(program, {**self.given, **switches}, self.positions.count)
-            for share, switches in self.held
-        ]
-        return np.asarray(sum(found))
-
-
-def together(found: Sequence[FoundStates]) -> FoundStates:
-    """States of one equation, one after the other."""
-    first = found[0]
-    coordinates = {
-        name: tuple(np.concatenate([each.positions.coordinates[name][k] for each in found]) for k in range(3))
-        for name in first.positions.coordinates
-    }
-    time = np.concatenate([each.positions.time for each in found])
-    positions = Positions(time, coordinates, first.positions.rotary)  # type: ignore[arg-type]
-    held = []
-    for way in range(max(len(each.held) for each in found)):
-        ways = [(each.held[way], 1.0) if way < len(each.held) else (each.held[0], 0.0) for each in found]
-        shares = np.array([share * counts for (share, _switches), counts in ways])
-        switches = {name: np.array([own[name] for (_share, own), _counts in ways]) for name in first.held[0][1]}
-        held.append((shares, switches))
-    states = {name: np.concatenate([each.states[name] for each in found]) for name in first.states}
-    return FoundStates(first.equation, positions, held, states)
 
 
 @dataclass(eq=False, repr=False)

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
-from typing import Literal, get_args
+from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.outputs import Output
 from linkwright.dynamics.change_points import Bridged
-from linkwright.dynamics.complementarity import shares
+from linkwright.dynamics.complementarity import one_way, shares
 from linkwright.dynamics.description import CLOSED, CLOSING_STEPS
 from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.right_side import RightSide
@@ -70,6 +70,14 @@ class Holding:
     def copy(self) -> Holding:
         """The same, to be changed."""
         return Holding(self.sides.copy(), list(self.stick), list(self.touch))
+
+
+class Slip(NamedTuple):
+    """A way in which all slips that may stick: what holds then, accelerations (free,), whether it ``goes_on`` so."""
+
+    holding: Holding
+    accelerations: Floats
+    goes_on: bool
 
 
 class System:
@@ -347,7 +355,7 @@ class System:
         """Surfaces by rates that are zero because the machine's own rates are, not because it stands where they do
         not move them; ``pace`` (n,): the largest rates so far."""
         n, gaps, found = len(self.free), self.gaps(out), []
-        pace = ZERO * max(float(np.abs(self.pace).max()), float(np.abs(y[n : 2 * n]).max()))
+        pace = ZERO * float(np.abs([self.pace, y[n : 2 * n]]).max(initial=0.0))
         for index, surface in enumerate(self.surfaces):
             if surface.by_rate:
                 size = float(np.linalg.norm(self.gap_by(out, index)))
@@ -364,8 +372,7 @@ class System:
         """
         holding = Holding(self.holding.sides.copy())
         self.hold(holding)
-        groups = self._together(t, y, self.zero(self.outputs(t, y), y))
-        touching = list(touch)
+        groups, touching = self._together(t, y), list(touch)
         if not groups and not touching:
             return holding
         _, first, gains, _ = self._answers(t, y, groups, touching)
@@ -381,6 +388,22 @@ class System:
                 return self.holding
         self._choose(t, y, self._chosen(holding, groups, touching, tuple(ways)))
         return self.holding
+
+    def slipping(self, t: float, y: Floats) -> list[Slip]:
+        """The ways in which all slips that may stick, forth first, none where nothing may; what holds stays."""
+        now, n, found = self.holding, len(self.free), []
+        start = Holding(now.sides.copy())
+        self.hold(start)
+        groups, out = self._together(t, y), self.outputs(t, y)
+        rates = np.array([sign * self.gap_by(out, index) for (index, sign), *_others in groups])
+        senses = [(1, -1) if each.sum() > 0.0 else (-1, 1) for each in rates]
+        for ways in product(*senses) if groups else ():
+            if one_way(rates * np.array(ways)[:, None]):
+                self._choose(t, y, self._chosen(start, groups, (), ways))
+                goes_on = self._consistent(t, y, groups, ways)
+                found.append(Slip(self.holding, self(t, y)[n : 2 * n], goes_on))
+        self.hold(now)
+        return found
 
     def _choose(self, t: float, y: Floats, holding: Holding) -> None:
         """Holds it, with what follows from its sides."""
@@ -418,28 +441,24 @@ class System:
                 return False
         return True
 
-    def _together(self, t: float, y: Floats, zero: list[int]) -> list[Group]:
-        """Surfaces whose rates are multiples of one another, as they stick and slip together; those across which no
-        force jumps are set to the side to which they go."""
-        n = len(self.free)
+    def _together(self, t: float, y: Floats) -> list[Group]:
+        """Surfaces that are zero, those in one group whose rates are multiples of one another, as they stick and slip
+        together; those across which no force jumps are set to the side to which they go where none of a group is."""
         out = self.outputs(t, y)
         found: list[tuple[list[tuple[int, float]], Floats]] = []
-        for index in zero:
+        smooth: list[tuple[int, Floats]] = []
+        for index in self.zero(out, y):
             by = self.gap_by(out, index)
             size = float(np.linalg.norm(by))
             jump, scale = self._jump(t, y, index)
             if size == 0.0 or jump <= NO_JUMP * scale:
+                smooth.append((index, by / (size or 1.0)))
+            elif not _joined(found, index, by / size):
+                found.append(([(index, 1.0)], by / size))
+        for index, unit in smooth:
+            if not _joined(found, index, unit):
                 self.holding.sides[index] = 1.0 if self.gap_rates(out)[index] >= 0.0 else -1.0
-                self._set_sides(self.holding.sides)
-                continue
-            unit = by / size
-            for group, other in found:
-                along = float(unit @ other)
-                if abs(abs(along) - 1.0) <= 1e-12 or n == 1:
-                    group.append((index, 1.0 if along > 0.0 else -1.0))
-                    break
-            else:
-                found.append(([(index, 1.0)], unit))
+        self._set_sides(self.holding.sides)
         return [tuple(group) for group, _unit in found]
 
     def _jump(self, t: float, y: Floats, index: int) -> tuple[float, float]:
@@ -451,6 +470,16 @@ class System:
             values.append(self.on(t, y, sides)[0][:n])
         self._set_sides(self.holding.sides)
         return float(np.abs(values[1] - values[0]).max()), float(np.abs(values).max())
+
+
+def _joined(groups: Sequence[tuple[list[tuple[int, float]], Floats]], index: int, unit: Floats) -> bool:
+    """Puts a surface into the group whose rates are multiples of its own, (n,) of length 1; whether there is one."""
+    for group, other in groups:
+        along = float(unit @ other)
+        if abs(abs(along) - 1.0) <= 1e-12:
+            group.append((index, 1.0 if along > 0.0 else -1.0))
+            return True
+    return False
 
 
 def _way(share: float, most: float) -> int:

@@ -10,11 +10,10 @@ import numpy as np
 
 from linkwright.core.outputs import Output
 from linkwright.dynamics.release import Release
-from linkwright.dynamics.states import FoundForces, FoundMotion, FoundStates, motion_at
+from linkwright.dynamics.states import FoundForces, FoundMotion, motion_at
 from linkwright.equations.steps import Equation, Item, Step
 from linkwright.equations.terms import NOWHERE, ZERO, Pair, Term, symbol, total
 from linkwright.errors import LinkwrightError, require_language, speaker
-from linkwright.kinematics.positions import Positions
 from linkwright.words import Message, Translate, _
 from linkwright.worked_solutions.applied_forces import Known, KnownForces
 from linkwright.worked_solutions.rates import System, named_points, solve
@@ -68,22 +67,22 @@ class _Writer:
             for number, name in enumerate(self.equation.names, 1)
         }
         kept = {name: second for name, second in release.accelerations.items() if name not in self.free}
-        self.bent = BentTable(self._motion(None, kept), translate, BENT)
+        self.unaccelerated = self._motion(None, kept)
+        self.bent = BentTable(self.unaccelerated, translate, BENT)
         self.number = 0
 
     def _motion(self, rates: Mapping[str, float] | None, seconds: Mapping[str, float] | None = None) -> FoundMotion:
         """The motion at the position with other rates (None: its own) and accelerations, zero where not given."""
-        found = self.release.states
-        coordinates = {
+        moment = self.release.moment
+        course = {
             name: (
                 q,
                 w if rates is None else np.array([rates.get(name, 0.0)]),
                 np.array([(seconds or {}).get(name, 0.0)]),
             )
-            for name, (q, w, _a) in found.positions.coordinates.items()
+            for name, (q, w, _a) in moment.course.items()
         }
-        positions = Positions(found.positions.time, coordinates, found.positions.rotary)
-        return motion_at(FoundStates(found.equation, positions, [(1.0, found.held[0][1])], found.states, found.modes))
+        return motion_at(replace(moment, parts=[part.going(course) for part in moment.parts]))
 
     def _step(self, title: Message) -> Step:
         self.number += 1
@@ -96,10 +95,10 @@ class _Writer:
             found += self._rates(name)
         if self.bends:
             found += self._bends()
-        known = self._known(0.0)
+        known = self._known(self.release.motion if self.equation.rubs else self.unaccelerated)
         found += self._forces(known)
         found += [self._inertia(), self._reduced(known), self._accelerations(), self._moving()]
-        actual = self._known(None)
+        actual = self._known(self.release.motion)
         found += self._reactions(actual)
         found.append(self._check())
         return found
@@ -165,14 +164,11 @@ class _Writer:
         return replace(item, output=None, unit=per.get(item.unit, item.unit))
 
     # forces -----------------------------------------------------------------------------------------------
-    def _known(self, second: float | None) -> KnownForces:
-        """Weights, loads and friction, where the accelerations of free inputs are zero or (None) as they are."""
-        found = self.release.states
-        if second is not None and not self.equation.rubs:
-            found = replace(found, positions=self.bent.motion.positions)
+    def _known(self, motion: FoundMotion) -> KnownForces:
+        """Weights, loads and friction in a motion."""
         forces = self.release.forces
-        still = FoundForces(self.release.motion, forces.solver, {}, True, forces.rows, found=found)
-        return KnownForces(still, self.book)
+        found = FoundForces(self.release.motion, forces.solver, {}, True, forces.rows, found=motion.found)
+        return KnownForces(found, self.book)
 
     def _forces(self, known: KnownForces) -> list[Step]:
         self.number += 1
