@@ -115,6 +115,8 @@ NAMES = {
     "Optimum": "优化结果",
     "LivingPage": "可在浏览器中重新求解的交互页面",
     "living_page": "写出交互页面",
+    "MujocoLoops": "MuJoCo 模型的闭环及其间隙",
+    "mujoco_loops": "MuJoCo 模型的闭环如何封闭、张开多大",
     "Animation": "动画",
     "animate": "制作动画",
     "plot": "曲线图与矢量多边形",

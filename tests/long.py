@@ -37,6 +37,7 @@ STEPS: Mapping[str, str] = {
     "alone": "-m tests.designs_alone --count 100 --seed {day}",
     "cluster": "-m tests.cluster",
     "benchmarks": "-m benchmarks --no-page",
+    "mujoco": "-m tests.mujoco_cycles",
     "mutants": "-m tests.mutants --count 150 --seed {day} --workers 2",
 }
 

@@ -76,6 +76,8 @@ from .errors import SelfCheckError as SelfCheckError
 from .events.limit_positions import LimitPosition as LimitPosition
 from .events.limit_positions import limit_positions as limit_positions
 from .exporters.export import export as export
+from .exporters.mjcf.closure import MujocoLoops as MujocoLoops
+from .exporters.mjcf.closure import mujoco_loops as mujoco_loops
 from .exporters.sweep_parts import SweepParts as SweepParts
 from .exporters.sweep_parts import sweep_parts as sweep_parts
 from .file_check import check as check

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import importlib
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -29,12 +29,14 @@ class Format:
     """A file format: the endings of its files, and the function that makes a file's content.
 
     ``content(results, **options)`` takes :class:`linkwright.exporters.results.Results` and keyword-only options;
-    ``of_result(result, language)`` another result in tables, where the format can hold one.
+    ``of_result(result, language)`` another result in tables, where the format can hold one. ``report(results,
+    **options)``: how exact the file is, as the command prints it; options that ``content`` lacks are its own.
     """
 
     suffixes: tuple[str, ...]
     content: Callable[..., bytes]
     of_result: Callable[[Tabular, str], bytes] | None = None
+    report: Callable[..., Tabular] | None = None
 
 
 FORMATS: Registry[Format] = Registry(_("export format"), "linkwright.exporters.formats")
@@ -141,9 +143,17 @@ def chosen_format(path: Path, name: str | None) -> str:
     raise RequestError(_ENDING.format(path=path, suffix=suffix, hint=hint))
 
 
-def check_options(name: str, form: Format, options: dict[str, Any]) -> None:
-    """Raises LinkwrightError for an option that the format does not have, with the nearest one."""
-    known = [p.name for p in inspect.signature(form.content).parameters.values() if p.kind is p.KEYWORD_ONLY]
+def options_of(function: Callable[..., Any]) -> list[str]:
+    """The names of the options of a format's function."""
+    return [each.name for each in inspect.signature(function).parameters.values() if each.kind is each.KEYWORD_ONLY]
+
+
+def check_options(name: str, form: Format, options: Iterable[str], *, reported: bool = False) -> None:
+    """Raises LinkwrightError for an option that the format, or where it is printed its report, does not have, with
+    the nearest one."""
+    known = options_of(form.content)
+    if reported and form.report is not None:
+        known += [each for each in options_of(form.report) if each not in known]
     for option in options:
         if option not in known:
             hint = offered(option, known, _("it has {names}"))

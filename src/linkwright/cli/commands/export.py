@@ -8,7 +8,7 @@ from linkwright.cli.command import command
 from linkwright.cli.options import Options, count, flag, fonts, force, model, option, positions, switch
 from linkwright.cli.session import Session
 from linkwright.core.arguments import STEPS
-from linkwright.fields.base import Number
+from linkwright.fields.base import Number, Quantity
 from linkwright.fields.tables import Integer
 from linkwright.words import _
 
@@ -30,7 +30,7 @@ NAMES = (
 #: Options of formats; one that a format lacks is refused with those that it has.
 OPTIONS = (
     *("degrees", "unit", "position", "paths", "curve", "dimensions", "labels", "accelerations", "form"),
-    *("name", "timestep", "indent", "compression", "width", "size", "compared"),
+    *("name", "timestep", "loops", "closure", "simulate", "indent", "compression", "width", "size", "compared"),
 )
 
 
@@ -86,6 +86,18 @@ linkwright export conveyor.yaml --to solution.py              Python program"""
 @option("--form", choices=("rates", "positions"), help=_("Modelica equations of rates or of positions"))
 @option("--name", "NAME", help=_("name of the Modelica model"))
 @option("--timestep", "S", of=Number(), help=_("time step in MuJoCo, s"))
+@option(
+    "--loops",
+    choices=("auto", "joint", "connect"),
+    help=_("MuJoCo: loops closed by couplings of joints where these are exact enough (auto), always, or never"),
+)
+@option(
+    "--closure",
+    "LENGTH",
+    of=Quantity("length", above=0),
+    help=_("MuJoCo: largest gap that couplings of joints may leave (default: 0.01 mm)"),
+)
+@flag("--simulate", _("MuJoCo: run one cycle in MuJoCo and print by how much loops open"), default=None)
 @option("--indent", "N", of=Integer(), help=_("spaces of indentation in JSON"))
 @option("--compression", "NAME", help=_("compression in Parquet"))
 @count("--width", help=_("width of PNG, pixels"))
@@ -97,14 +109,17 @@ def run(options: Options, session: Session) -> int:
     """Solves a model and writes the file; 1 where a position is not reached."""
     from linkwright.cli.files import read_model, refuse_existing
     from linkwright.cli.solving import chosen_motion, input_text, with_forces
-    from linkwright.exporters.export import FORMATS, check_options, chosen_format, export
+    from linkwright.exporters.export import FORMATS, check_options, chosen_format, export, options_of
+    from linkwright.exporters.results import Results
     from linkwright.files.model_file import read_document
     from linkwright.files.source import read_source
 
     path = Path(options.output)
     settings = {name: value for name, value in vars(options).items() if name in OPTIONS and value is not None}
     chosen = chosen_format(path, options.format)
-    check_options(chosen, FORMATS[chosen], settings)
+    form = FORMATS[chosen]
+    check_options(chosen, form, settings, reported=True)
+    asked = {name: settings.pop(name) for name in list(settings) if name not in options_of(form.content)}
     refuse_existing(path, force=options.force)
     mechanism, _findings = read_model(options.file, session)
     motion = chosen_motion(mechanism, options, "mark")
@@ -114,9 +129,17 @@ def run(options: Options, session: Session) -> int:
     if chosen == "python":
         settings["model"] = str(options.file)
     solved = mechanism if motion is None else with_forces(motion)
+    report = None
+    if form.report is not None:
+        asked |= {name: value for name, value in settings.items() if name in options_of(form.report)}
+        report = form.report(Results.of(solved, options.steps), **asked)
     settings |= {"force": options.force, "steps": options.steps, "language": session.language}
     export(solved, path, format=chosen, **settings)
-    session.show_written(path, data={"ok": True, "path": str(path), "format": chosen})
+    written = {"path": str(path), "format": chosen}
+    if report is not None:
+        session.show_result(report, path, data=written)
+    else:
+        session.show_written(path, data={"ok": True, **written})
     if motion is None:
         return 0
     for number, outcome in enumerate(motion.outcomes):
