@@ -22,7 +22,8 @@ class Body:
     of a point are pinned there.
 
     Where bodies disagree about a shared point, their own places give their dimensions, and the machine is assembled
-    near them. ``length``: of a body of two points, where the file gives it beside the places. ``centre``: mass
+    near them. ``length``: from its first point to the second, where the file gives it beside the places; further
+    points are then known in the body's axes. ``centre``: mass
     centre in frame axes; None: not given. ``key``: what the foreign file calls it, for findings.
     """
 
@@ -163,7 +164,7 @@ class Remarks:
     def remark(
         self,
         severity: Severity,
-        message: Message,
+        message: Message | str,
         remedy: Message | str,
         code: str,
         *,

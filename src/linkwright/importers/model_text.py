@@ -48,7 +48,7 @@ class Writer:
         data["frame"] = {"points": self.places(layout.frame.places)}
         data["links"] = {body.name: self.link(body) for body in layout.bodies.values()}
         data["joints"] = dict(self.joints())
-        data["drawing"] = self.places(self.drawn)
+        data["drawing"] = self.places({name: each for name, each in self.drawn.items() if name not in self.further()})
         data |= self.drivers()
         data["cycle"] = layout.cycle
         data["gravity"] = [f"{number(each)} m/s²" if each else 0 for each in layout.gravity]
@@ -85,8 +85,10 @@ class Writer:
         """A link by its points in the drawing; by its own length or coordinates where these say otherwise."""
         points = list(body.places)
         found: Plain = {"points": points}
-        if body.length is not None and len(points) == 2:
-            found["length"] = self.length(body.length)
+        if body.length is not None and len(points) > 1:
+            further = {name: place for name, place in self.own_places(body).items() if name in points[2:]}
+            found = {"points": points[:2], "length": self.length(body.length)}
+            found |= {"also": self.places(further)} if further else {}
         elif len(points) > 1 and not self.as_drawn(body):
             found["points"] = self.places(self.own_places(body))
         for key, value, unit in (("mass", body.mass, "kg"), ("inertia", body.inertia, "kg·m²")):
@@ -95,6 +97,14 @@ class Writer:
             named = next((name for name, each in body.places.items() if self.same(each, body.centre)), None)
             found["mass_centre"] = named or [self.length(each) for each in self.turned(body, body.centre)]
         return found | ({"colour": body.colour} if body.colour else {})
+
+    def further(self) -> set[str]:
+        """Points of links with a length that no other link has: their own coordinates say where they are."""
+        points = [name for body in self.layout.all for name in body.places]
+        behind = [
+            name for body in self.layout.bodies.values() if body.length is not None for name in list(body.places)[2:]
+        ]
+        return {name for name in behind if points.count(name) == 1}
 
     def as_drawn(self, body: Body) -> bool:
         """Whether the body's points are where the drawing has them, its first two apart."""
@@ -182,7 +192,8 @@ class Writer:
             law: Plain = {"table": {"time": [f"{number(each)} s" for each in times], "position": written}}
             law["table"]["interpolation"] = interpolation
         elif drive.added is not None:
-            law = {"position": f"{began} + {drive.added}"}
+            minus = drive.added.startswith("-")
+            law = {"position": f"{began} - {drive.added[1:]}" if minus else f"{began} + {drive.added}"}
         elif drive.speed is None:
             law = {"free": True}
         else:
