@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.inputs import driven, mode_inputs
+from linkwright.core.inputs import mode_inputs
 from linkwright.drivers.base import Driver
 from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.site import coordinate_of, near_name
@@ -17,6 +17,7 @@ from linkwright.formula.linear_algebra import ZERO
 from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
 from linkwright.formula.trace import Scalar, angle
+from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.trace import MotionOutputs
 
 #: Newton's steps of groups without closed form at a position, and the change that ends them.
@@ -76,21 +77,20 @@ class Description:
         if key not in self._programs:
             self._programs[key] = NumpyProgram(Program.of(equation.solver.motion.trace, outputs))
         program = self._programs[key]
-        given: dict[str, Floats] = {name: np.full(count, each) for name, each in self.held.items()} | dict(
-            other or {}
-        )
-        for name, coordinate, rate in zip(self.names, q, w, strict=True):
-            given |= driven(name, equation.rotary[name], (coordinate, rate, 0.0 * rate), np.cos, np.sin)
-        given["input"] = q[0]
+        given: dict[str, Floats] = {name: np.full(count, each) for name, each in self.held.items()}
+        courses = {name: (at, rate, 0.0 * rate) for name, at, rate in zip(self.names, q, w, strict=True)}
+        given |= {**(other or {}), **Positions(np.zeros(count), courses, equation.rotary).arrays}
         numbers = [equation.numbers[name] for name in program.program.parameters]
         arrays = {name: given[name] for name in program.program.positions}
         fields = {name: given[name] for name in program.program.fields}
         found = np.asarray(program.run(numbers, arrays, fields, length=count))
         return dict(zip(outputs, found, strict=True))
 
-    def _motion(self, outputs: Mapping[str, Scalar], q: Floats, w: Floats) -> dict[str, float]:
+    def _motion(
+        self, outputs: Mapping[str, Scalar], q: Floats, w: Floats, other: Mapping[str, Floats] | None = None
+    ) -> dict[str, float]:
         """The same at one position, (drivers,)."""
-        return {name: float(row[0]) for name, row in self.motion(outputs, q[:, None], w[:, None]).items()}
+        return {name: float(row[0]) for name, row in self.motion(outputs, q[:, None], w[:, None], other).items()}
 
     @cached_property
     def _placed(self) -> dict[str, Scalar]:
@@ -126,16 +126,12 @@ class Description:
         )
 
     def coordinates(self, drivers: Mapping[str, Driver], q: Floats, w: Floats) -> tuple[Floats, Floats]:
-        """Coordinates and rates of joints at such a position; ``near`` must hold angles of the model's drivers."""
+        """Coordinates and rates of joints at such a position; angles that ``near`` does not hold nearest to zero."""
         motion = self.equation.solver.motion
         out: dict[str, Scalar] = {}
         for name, driver in drivers.items():
             out[f"q:{name}"], out[f"qd:{name}"] = coordinate_of(motion, driver)
-        unknown = {name: 0.0 for name in drivers if name not in self.near}
-        self.near |= unknown
-        found = self._motion(out, q, w)
-        for name in unknown:
-            del self.near[name]
+        found = self._motion(out, q, w, {near_name(name): np.zeros(1) for name in drivers if name not in self.near})
         return np.array([found[f"q:{name}"] for name in drivers]), np.array([found[f"qd:{name}"] for name in drivers])
 
     def qualities(self, q: Floats) -> Floats:

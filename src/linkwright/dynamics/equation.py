@@ -7,7 +7,7 @@ it is in h. With friction in joints T bends with the accelerations; Newton's ste
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from functools import cached_property
 from typing import Any
@@ -85,6 +85,7 @@ class EquationOfMotion:
         self.names = list(self.mechanism.drivers)
         kept = set(prescribed)
         self.free = [name for name in self.names if name not in kept]
+        self.prescribed = [name for name in self.names if name in kept]
         self.rotary = {name: each.law.rotary for name, each in self.mechanism.drivers.items()}
         self.varied = frozenset(varied)
         manner = Manner(self.varied, iterations=ITERATIONS)
@@ -184,17 +185,16 @@ class EquationOfMotion:
         """All outputs in a trace of their own."""
         t = Trace()
         zero: dict[str, Scalar] = dict.fromkeys(self.names, 0.0)
-        fixed = [name for name in self.names if name not in self.free]
-        seconds = zero | {name: t.position(Input("second", name).name) for name in fixed}
+        seconds = zero | {name: t.position(Input("second", name).name) for name in self.prescribed}
         found, gaps = self._inlined(t, seconds)
         second = self._accelerations(found, seconds)
         for _step in range(RUBBING_STEPS if self.rubs else 0):
             found, _again = self._inlined(t, second)
             second = self._accelerations(found, second)
-        if self.rubs or fixed:
+        if self.rubs or self.prescribed:
             found, _again = self._inlined(t, second)
         out: dict[str, Scalar | bool] = {f"qdd:{name}": second[name] for name in self.free}
-        out |= self._energies(t, found, fixed)
+        out |= self._energies(t, found)
         out |= {name: value for name, value in found.items() if not name.startswith("T:")}
         out |= {f"h:{name}": found[f"T:{name}"] for name in self.names} | gaps
         return t, out | self._rates(t, out, second)
@@ -224,13 +224,13 @@ class EquationOfMotion:
         change = solution(matrix, [-_number(found[f"T:{a}"]) for a in self.free]) if self.free else []
         return {**second, **{name: second[name] + each for name, each in zip(self.free, change, strict=True)}}
 
-    def _energies(self, t: Trace, found: Mapping[str, Scalar | bool], fixed: Sequence[str]) -> dict[str, Scalar]:
+    def _energies(self, t: Trace, found: Mapping[str, Scalar | bool]) -> dict[str, Scalar]:
         """Power of all forces, of the prescribed inputs as well, and kinetic energy."""
         rates = [t.position(f"qd:{name}") for name in self.names]
         power: Scalar = 0.0
         for name, rate in zip(self.names, rates, strict=True):
             power = power - _number(found[f"S:{name}"]) * rate
-            if name in fixed:
+            if name in self.prescribed:
                 power = power + _number(found[f"T:{name}"]) * rate
         if self.rubs:
             power = power - _number(found["rubbing"])

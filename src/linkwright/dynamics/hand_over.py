@@ -15,7 +15,6 @@ from itertools import combinations
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.core.inputs import driven
 from linkwright.drivers.base import Driver
 from linkwright.drivers.free import Free
 from linkwright.dynamics.description import Description, Place
@@ -27,6 +26,7 @@ from linkwright.formula.numpy_backend import NumpyProgram
 from linkwright.formula.program import Program
 from linkwright.kinematics.assembly import Assembly, modal_groups
 from linkwright.kinematics.groups import counted, state_name
+from linkwright.kinematics.positions import Positions, rotary
 from linkwright.kinematics.rotations import geared, turn_state
 from linkwright.kinematics.trace import trace_motion
 from linkwright.mechanism.drawing import Drawing
@@ -77,8 +77,7 @@ class Descriptions:
             return now
         if self._flipping is None:
             first = self.first
-            fixed = [name for name in first.names if name not in first.free]
-            self._flipping = EquationOfMotion(first.source, prescribed=fixed, flipping=True)
+            self._flipping = EquationOfMotion(first.source, prescribed=first.prescribed, flipping=True)
             self._made[tuple(first.names)] = self._flipping
         signs = now.equation.solver.assembly.modes
         return Description(self._flipping, {name: signs[name] for name in self._flipping.modes}, now.states, now.near)
@@ -147,7 +146,7 @@ class Descriptions:
             first = self.first
             self._made[key] = EquationOfMotion(
                 first.source,
-                prescribed=[name for name in first.names if name not in first.free],
+                prescribed=first.prescribed,
                 flipping=True,
                 assembly=Assembly({}, states, Drawing(trial.mechanism)),
                 coordinates=drivers,
@@ -218,16 +217,11 @@ class _Trial:
         program = self._program
         if not program.program.outputs:
             return 1.0
-        given: dict[str, float] = {}
-        states = self.states(place)
-        for name, each in q.items():
-            rotary = self.mechanism.drivers[name].law.rotary
-            given |= driven(name, rotary, (each, 0.0, 0.0), np.cos, np.sin)
-        numbers = self.mechanism.dimensions()
+        zero, numbers = np.zeros(1), self.mechanism.dimensions()
+        at = Positions(zero, {name: (zero + each, zero, zero) for name, each in q.items()}, rotary(self.mechanism))
+        states = {name: zero + each for name, each in self.states(place).items()}
         values = [numbers[name] for name in program.program.parameters]
-        arrays = {name: np.array([given[name]]) for name in program.program.positions}
-        fields = {name: np.array([states[name]]) for name in program.program.fields}
-        return float(np.min(np.asarray(program.run(values, arrays, fields, length=1))))
+        return float(np.min(np.asarray(program.run(values, at.arrays, states, length=1))))
 
 
 def joint_coordinates(mechanism: Mechanism) -> Iterator[Driver]:

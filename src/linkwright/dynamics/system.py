@@ -120,7 +120,7 @@ class System:
             for side in (self.slim, self.full)
         }
         self._switches = {side: self._rows(side) for side in (self.slim, self.full)}
-        self.prescribed = [name for name in equation.names if name not in self.free]
+        self.prescribed = equation.prescribed
         self.holding = Holding(np.ones(len(self.surfaces)))
         self.missed = 0
         self.pace = np.zeros(len(self.free))
