@@ -26,6 +26,7 @@ REQUESTS = (
     "discard",
     "open",
     "read",
+    "import",
     "keep",
     "state",
     "save",

@@ -76,15 +76,21 @@ READERS: Registry[ForeignFormat] = Registry(
 class Foreign:
     """What was read from a file of another program.
 
-    ``text``: of the model file that says the same (empty where there is none); ``findings``: what has no counterpart
-    or had to be assumed, with its place in the foreign file, and what :func:`linkwright.check` has to say about the
-    model; ``traced``: the points whose paths the file asks for.
+    ``text``: of the model file that says the same (empty where there is none); ``remarks``: what has no counterpart
+    or had to be assumed, with its place in the foreign file; ``faults``: what :func:`linkwright.check` has to say
+    about the model; ``traced``: the points whose paths the file asks for.
     """
 
     format: str
     text: str
-    findings: tuple[Finding, ...]
+    remarks: tuple[Finding, ...]
+    faults: tuple[Finding, ...] = ()
     traced: tuple[str, ...] = ()
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """All of both."""
+        return (*self.remarks, *self.faults)
 
     @cached_property
     def mechanism(self) -> Mechanism:
@@ -130,15 +136,19 @@ def read_foreign(
         raise RequestError(
             _("{unit} is no unit of length; {hint}", code="import.no_unit", unit=unit, hint=offered(unit, LENGTHS))
         )
-    found = _source(source)
-    name = format or _format_of(found)
-    remarks = Remarks(found.name)
-    layout = READERS[name].read(found, Answers(unit, fixed, driver, speed), remarks)
+    return read_text_of(_source(source), Answers(unit, fixed, driver, speed), format)
+
+
+def read_text_of(source: ForeignText, answers: Answers | None = None, format: str | None = None) -> Foreign:
+    """The same of a text whose file is at hand; raises RequestError where no reader knows it."""
+    name = format or _format_of(source)
+    remarks = Remarks(source.name)
+    layout = READERS[name].read(source, answers or Answers(), remarks)
     if layout is None or remarks.failed:
         return Foreign(name, "", tuple(remarks.found))
     text = model_text(layout)
-    own = checked_text(text, "model").findings
-    return Foreign(name, text, (*remarks.found, *own), tuple(layout.traced))
+    faults = tuple(checked_text(text, "model").findings)
+    return Foreign(name, text, tuple(remarks.found), faults, tuple(layout.traced))
 
 
 def _source(source: str | Path) -> ForeignText:

@@ -50,6 +50,7 @@ class Work:
             "discard": lambda a: files.discard(text(a, "name")),
             "open": self._open,
             "read": lambda a: {"text": self._read(a)},
+            "import": lambda a: imported(text(a, "name"), text(a, "text"), language_of(a)),
             "keep": lambda a: files.keep(
                 text(a, "name"), text(a, "text"), text(a, "window"), int(number(a, "serial"))
             ),
@@ -250,6 +251,19 @@ def solved(text: str, language: str, folder: str = "") -> Plain:
         found["picture"]["sketched"] = sketched(draft)
     found["findings"] = [_finding(each, language) for each in in_earnest(findings, told=told)]
     return found
+
+
+def imported(name: str, content: str, language: str) -> Plain:
+    """A file or a link of another program as the text of a model, and remarks on what it could not say.
+
+    Raises LinkwrightError where there is no machine in it.
+    """
+    from linkwright.importers.foreign import ForeignText, read_text_of
+
+    found = read_text_of(ForeignText(content, name))
+    if not found.text:
+        raise ModelError(found.remarks)
+    return {"text": found.text, "notes": [each.translate(language) for each in found.remarks]}
 
 
 def _finding(found: Finding, language: str) -> Plain:

@@ -81,6 +81,40 @@ def test_a_new_drawing_hides_no_other_and_asks_before_it_replaces_a_file(chromiu
         assert "O1" in shown.text
 
 
+BAR_IN_DXF = "\n".join(
+    [
+        "0",
+        "SECTION",
+        "2",
+        "ENTITIES",
+        "0",
+        "LINE",
+        "8",
+        "LINK_bar",
+        "10",
+        "0",
+        "20",
+        "0",
+        "11",
+        "30",
+        "21",
+        "40",
+        "0",
+        "POINT",
+        "8",
+        "FRAME",
+        "10",
+        "0",
+        "20",
+        "0",
+        "0",
+        "ENDSEC",
+        "0",
+        "EOF",
+    ]
+)
+
+
 def test_commands_are_found_by_their_words_and_a_model_comes_and_goes_in_a_link(chromium: Any, press: Path) -> None:
     axe = pytest.importorskip("axe_playwright_python.sync_playwright")
     with hand(chromium, press.parent, "press.yaml") as shown:
@@ -107,6 +141,18 @@ def test_commands_are_found_by_their_words_and_a_model_comes_and_goes_in_a_link(
         tab.wait_for_function("() => desk.name.value === 'Drawing 1.yaml'")
         shown.settle()
         assert shown.text == changed and press.read_text() == text and "#" not in tab.url
+        tab.evaluate(
+            """text => {
+                const data = new DataTransfer();
+                data.items.add(new File([text], "bar.dxf"));
+                const dropped = { dataTransfer: data, bubbles: true, cancelable: true };
+                document.dispatchEvent(new DragEvent("drop", dropped));
+            }""",
+            BAR_IN_DXF,
+        )
+        tab.wait_for_function("() => desk.name.value === 'Drawing 2.yaml' && bench.page.note.value.includes('unit')")
+        shown.settle()
+        assert "bar: {points: [O1, A]}" in shown.text
 
 
 def test_dividers_tools_and_drawer_fit_the_window(chromium: Any, press: Path) -> None:

@@ -291,6 +291,14 @@ export class Desk {
     if (file !== this.file) this.put(text, 0);
   }
 
+  /** Opens the machine of another program's file or link as a new drawing, with what it could not say. */
+  async bring(name: string, text: string): Promise<void> {
+    const found = await this.ask<{ text: string; notes: string[] }>("import", { name, text });
+    if (!found) return; // why is in the note
+    await this.begin(found.text);
+    if (found.notes.length) this.page.note.value = found.notes.join("\n");
+  }
+
   /** The steps back and forth outlive the page. */
   private remember(): void {
     keepSteps(this.file.name, { ...this.history.states, now: this.text.value });

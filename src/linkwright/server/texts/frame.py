@@ -89,7 +89,7 @@ FILES: dict[str, Message] = {
     "save.taken": _("{name} is there already. Replace it?"),
     "save.replace": _("Replace"),
     "link.title": _("Open a shared link"),
-    "link.help": _("Paste a link from Share. Its drawing opens as a new one; nothing of yours is changed."),
+    "link.help": _("Paste a link from Share or of PMKS+. It opens as a new drawing; nothing of yours is changed."),
     "link.none": _("This link holds no drawing; copy it again, whole."),
     "strip.changed": _("{name} has been changed on the disk since it was opened."),
     "strip.removed": _("{name} is no longer on the disk."),

@@ -4,6 +4,7 @@ import { named } from "../desk";
 import { modelOf } from "../../share";
 import type { Bench } from "../bench";
 import { DialogFrame } from "./dialog";
+import { isForeign } from "./sharing";
 import { titleOf } from "./topbar";
 
 export function SaveDialog({ bench }: { bench: Bench }) {
@@ -44,6 +45,10 @@ export function SaveDialog({ bench }: { bench: Bench }) {
 export function LinkDialog({ bench }: { bench: Bench }) {
   const [link, setLink] = useState(""), [problem, setProblem] = useState("");
   const open = async () => {
+    if (isForeign(link)) {
+      bench.dialog.value = null;
+      return bench.desk.bring("link", link.trim());
+    }
     const text = await modelOf(link);
     if (text === null) return setProblem(bench.say("link.none"));
     bench.dialog.value = null;

@@ -26,8 +26,12 @@ async function copy(text: string): Promise<boolean> {
 
 export const long = (link: string) => link.length > LONG;
 
+/** A share link of PMKS+, whose text is decoded. */
+export const isForeign = (link: string) => /pmks[\w.]*\.com\S*\?\S/i.test(link);
+
 /** Opens the model in a link as a new drawing; says where there is none. */
 export async function openLink(bench: Bench, link: string): Promise<boolean> {
+  if (isForeign(link)) return bench.desk.bring("link", link.trim()).then(() => true);
   const text = await modelOf(link);
   if (text === null) bench.page.note.value = bench.say("link.none");
   else await bench.desk.begin(text);
@@ -42,9 +46,9 @@ export function linkInAddress(): string | null {
   return hash;
 }
 
-/** Model files and links that are dropped on the page, or follow in its address, are opened. */
+/** Model files, files of other programs and links that are dropped on the page, or follow in its address, are opened. */
 export function takeDropped(bench: Bench): () => void {
-  const fileOf = (data: DataTransfer | null) => [...(data?.files ?? [])].find(({ name }) => /\.(ya?ml|json)$/i.test(name));
+  const fileOf = (data: DataTransfer | null) => [...(data?.files ?? [])].find(({ name }) => /\.(ya?ml|json|linkage2|pmks|txt|xml|mjcf|urdf|dxf)$/i.test(name));
   const over = (event: DragEvent) => {
     const { types } = event.dataTransfer!;
     if (types.includes("Files") || types.includes("text/uri-list") || types.includes("text/plain")) event.preventDefault();
@@ -53,10 +57,12 @@ export function takeDropped(bench: Bench): () => void {
     if (event.defaultPrevented) return;
     const file = fileOf(event.dataTransfer), link = event.dataTransfer?.getData("text/plain") ?? "";
     if (event.dataTransfer?.types.includes("Files")) event.preventDefault(); // the browser would leave the page for the file
-    if (!file && !holdsModel(link)) return;
+    if (!file && !holdsModel(link) && !isForeign(link)) return;
     event.preventDefault();
-    if (file) await bench.desk.begin(await file.text());
-    else await openLink(bench, link);
+    if (!file) return void openLink(bench, link);
+    const text = await file.text();
+    const own = /\.ya?ml$/i.test(file.name) || (/\.json$/i.test(file.name) && /"format"\s*:/.test(text));
+    await (own ? bench.desk.begin(text) : bench.desk.bring(file.name, text));
   };
   const dropped = (event: DragEvent) => void drop(event);
   const follow = () => {
