@@ -65,10 +65,11 @@ class Bodies:
         return len(anchors) > 1
 
     def turned_by(self, connector: Connector) -> Iterable[int]:
-        """Indices of the links that an input turns: all at it that are not fixed."""
+        """Indices of the links that an input turns: all at it that are not fixed, nor fastened to what is."""
         if connector.input:
+            frame = self._leader(len(self.rigid))
             for index, link in enumerate(self.rigid):
-                if connector.number in link.connectors and not self.is_fixed(link):
+                if connector.number in link.connectors and self._leader(index) != frame and not self.is_fixed(link):
                     yield index
 
     def _fasten_to_connector(self, index: int, link: LinkElement, number: int) -> None:

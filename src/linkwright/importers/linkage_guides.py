@@ -143,15 +143,18 @@ class Guides:
         return name
 
     def _centre(self, connector: Connector) -> Vec:
-        """Centre of the arc through both limits: for a positive radius to the left of the line from the first one."""
+        """Centre of the arc through both limits: that of the two about which the connector lies; where it fits both,
+        for a positive radius to the left of the line from the first limit."""
         (x0, y0), (x1, y1) = (self.bodies.used[each].place for each in connector.limits)
         dx, dy = x1 - x0, y1 - y0
         span = math.hypot(dx, dy)
         radius = max(abs(connector.radius), span / 2 + MARGIN)
         away = math.copysign(math.sqrt(radius**2 - span**2 / 4), connector.radius) / (span or 1.0)
-        centre = ((x0 + x1) / 2 - away * dy, (y0 + y1) / 2 + away * dx)
-        off = math.dist(centre, connector.place) - radius
-        if abs(off) > OFF * radius:
+        centres = [((x0 + x1) / 2 - side * dy, (y0 + y1) / 2 + side * dx) for side in (away, -away)]
+        offs = [math.dist(each, connector.place) - radius for each in centres]
+        nearer = int(abs(offs[1]) < abs(offs[0]) - OFF * radius)
+        centre, off = centres[nearer], abs(offs[nearer])
+        if off > OFF * radius:
             shown = f"{off / PIXEL:.4g}"
             message = _(
                 "it lies {off} units of the file off its arc; it keeps its distance from the centre", off=shown
