@@ -87,7 +87,11 @@ def reference() -> dict[Path, str]:
         found[ROOT / language / "functions.md"] = functions(language)
         found[ROOT / language / "codes.md"] = codes(language)
         found[ROOT / language / "gallery.md"] = gallery_by_kinds(language)
-    return {path: "\n".join(lines).rstrip() + "\n" for path, lines in found.items()}
+    made = {path: "\n".join(lines).rstrip() + "\n" for path, lines in found.items()}
+    for language in ("en", "zh"):  # for assistants, who have the package alone
+        shipped = Path(lw.__file__).parent / "assistants" / f"glossary.{language}.md"
+        made[shipped] = (ROOT / language / "glossary.md").read_text("utf-8")
+    return made
 
 
 def write(pages: Mapping[Path, str]) -> None:

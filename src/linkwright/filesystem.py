@@ -7,10 +7,12 @@ import os
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
+from contextvars import ContextVar
 from pathlib import Path
 
 from linkwright.errors import RequestError
 from linkwright.words import Message, _
+from linkwright.words.characters import printable
 from linkwright.words.message import reason_of
 
 #: Permissions of new files, before the user's mask.
@@ -27,7 +29,55 @@ _CANNOT_MAKE = _(
 )
 
 
+_folder: ContextVar[Path | None] = ContextVar("folder", default=None)
 _EXISTS = _('"{path}" exists; choose another name, or replace it with {remedy}', code="file.exists")
+
+
+def below(folder: Path, name: str | Path) -> Path | None:
+    """The path of a name within a folder without links, its own links followed; None where it leads out of the folder
+    or into what is hidden there, or no file can have it."""
+    with suppress(OSError, RuntimeError, ValueError):  # links may lead in a circle, and some names no file can have
+        path = (folder / name).resolve()
+        if path.is_relative_to(folder) and not any(part.startswith(".") for part in path.relative_to(folder).parts):
+            return path
+    return None
+
+
+@contextmanager
+def confined(folder: Path) -> Iterator[None]:
+    """Within it models, the files that they name and files that are written lie below a folder, or are refused."""
+    token = _folder.set(folder.resolve())
+    try:
+        yield
+    finally:
+        _folder.reset(token)
+
+
+def is_confined() -> bool:
+    """Whether files are bound to a folder."""
+    return _folder.get() is not None
+
+
+def within(folder: Path, name: str | Path) -> Path:
+    """The same as :func:`below`; raises RequestError where it leads out of the folder."""
+    path = below(folder, name)
+    if path is None:
+        raise RequestError(
+            _(
+                '"{path}" does not lie below the folder to which files are bound here; name a file in that folder',
+                code="file.outside",
+                path=printable(str(name)),
+            )
+        )
+    return path
+
+
+def allowed(path: str | Path) -> Path:
+    """The path of a file; raises RequestError where files are bound to a folder and it does not lie there."""
+    folder, target = _folder.get(), Path(path)
+    if folder is not None:
+        within(folder, target.absolute())
+    return target
 
 
 def refuse_target(path: str | Path, *, force: bool = True, remedy: str = "force=True") -> None:
@@ -93,7 +143,7 @@ def atomic_write(
     may be replaced.
     Raises RequestError where the folder does not exist or cannot be written.
     """
-    target = Path(path)
+    target = allowed(path)
     refuse_target(target, force=force, remedy=remedy)
     try:
         if target.exists() and not target.is_file():

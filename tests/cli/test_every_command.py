@@ -62,7 +62,7 @@ ASKED: dict[str, list[str]] = {
     "vibration": ["gallery:free_decay"],
 }
 #: What answers with a script, a schema or a server; these have tests of their own.
-OTHERS = {"completion", "schema", "studio"}
+OTHERS = {"completion", "mcp", "schema", "studio"}
 
 
 def test_every_command_is_here() -> None:

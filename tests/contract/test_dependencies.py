@@ -19,6 +19,7 @@ DISTRIBUTIONS = {
     "lazy_loader": "lazy-loader",
     "resvg_py": "resvg-py",
     "docx": "python-docx",
+    "mcp_types": "mcp",
     "markdown_it": "markdown-it-py",
     "mdit_py_plugins": "mdit-py-plugins",
 }
@@ -37,7 +38,9 @@ def test_every_requirement_is_imported_and_every_import_is_required() -> None:
     project = tomllib.loads(PROJECT.read_text(encoding="utf-8"))["project"]
     required = declared(project["dependencies"])
     extras = project["optional-dependencies"]
-    optional = set.union(*(declared(extras[name]) for name in ("plot", "report", "video", "export", "notebook")))
+    optional = set.union(
+        *(declared(extras[name]) for name in ("plot", "report", "video", "export", "notebook", "assistants"))
+    )
     found = imported()
     assert required <= found <= required | optional
 

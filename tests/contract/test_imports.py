@@ -32,7 +32,7 @@ STAGES = (
     ("reports", "plotting", "exporters", "page", "validation", "course", "sheets"),
     ("file_check",),
     ("importers",),
-    ("cli", "server", "__main__"),
+    ("cli", "server", "assistants", "__main__"),
 )
 STAGE = {package: number for number, packages in enumerate(STAGES) for package in packages}
 FRONT = STAGE["reports"]
@@ -52,6 +52,9 @@ FRONT_END_PACKAGES = {
     "rich",
     "argparse",
     "click",
+    "mcp",
+    "pydantic",
+    "anyio",
 }
 SLOW = ("scipy", "pandas", "matplotlib", "networkx", "sympy", "numba", "jax", "llvmlite")
 

@@ -41,7 +41,7 @@ WRITTEN = re.compile(
     r'(?:\.save\w*\(\s*|export\([^\n]*?)"([\w/]+\.\w+)"(?![^)\n]*force)'
 )
 #: What a line needs and the examples do not give: a reader's own data, an answer that never ends.
-NOT_RUN = ("linkwright studio", "linkwright COMMAND", "linkwright check FILE", "| ", " FILE")
+NOT_RUN = ("linkwright studio", "linkwright mcp", "linkwright COMMAND", "linkwright check FILE", "| ", " FILE")
 
 
 def daily(page: Path) -> bool:

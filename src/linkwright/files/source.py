@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from linkwright import gallery
 from linkwright.core.arguments import describe
 from linkwright.errors import Finding, ModelError, RequestError
+from linkwright.filesystem import allowed
 from linkwright.registry import nearest
 from linkwright.words import _, pgettext
 from linkwright.words.message import reason_of
@@ -58,6 +59,7 @@ def read_bytes(source: str | Path) -> bytes:
             _("for the text of a model write lw.loads(text)", code="model.write_loads"),
             "no-file",
         )
+    allowed(path)
     try:
         if path.is_dir():
             raise _refuse(path, _("this is a folder"), _("name a model file in it"), "not-a-file")

@@ -9,6 +9,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from linkwright.errors import LinkwrightError
+from linkwright.filesystem import is_confined
 from linkwright.registry import offered
 from linkwright.reports.document import (
     Block,
@@ -90,9 +91,12 @@ def own_words(text: str) -> str:
 
 
 def _typst(text: str) -> tuple[Block, list[Fault]]:
-    """Typst as it is; as text where it does not compile."""
+    """Typst as it is; as text where it does not compile, and where files are bound to a folder: it can read files and
+    fetch packages."""
     from linkwright.reports.typst_pages import typst_fault
 
+    if is_confined():
+        return Paragraph(literal(text)), [Fault(_("texts in Typst are not set here; write Markdown"))]
     if fault := typst_fault(text):
         return Paragraph(literal(text)), [Fault(_("Typst cannot read this text: {message}", message=fault))]
     return Source(text), []

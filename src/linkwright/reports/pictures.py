@@ -12,6 +12,7 @@ from pathlib import Path
 from urllib.parse import unquote
 
 from linkwright.errors import LinkwrightError
+from linkwright.filesystem import allowed
 from linkwright.pictures.drawing import PIXELS
 from linkwright.pictures.svg import natural_size, png
 from linkwright.plotting.drawing.machine import DIAGONAL
@@ -41,7 +42,7 @@ class Picture:
 
 def picture_of(name: str, folder: str) -> Picture:
     """The picture of a file next to the model; raises LinkwrightError where it is none."""
-    path = Path(folder, unquote(name))
+    path = allowed(Path(folder, unquote(name)))
     if path.suffix.lower() not in FORMS:
         raise LinkwrightError(
             _(

@@ -14,7 +14,7 @@ from pathlib import Path
 from linkwright.core.data import Plain
 from linkwright.errors import LinkwrightError
 from linkwright.files.source import decode
-from linkwright.filesystem import alone, atomic_write, make_folder
+from linkwright.filesystem import alone, atomic_write, below, make_folder
 from linkwright.words import _
 from linkwright.words.characters import UNFIT, printable
 from linkwright.words.message import reason_of
@@ -38,13 +38,8 @@ class Files:
 
     def path(self, name: str) -> Path:
         """The path of a file below the folder; raises LinkwrightError for any other."""
-        path = self.folder
-        # Links may lead in a circle, and some names no file can have.
-        with suppress(OSError, RuntimeError, ValueError):
-            path = (self.folder / name).resolve()
-        inner = path.relative_to(self.folder).parts if path.is_relative_to(self.folder) else (".",)
-        hidden = any(part.startswith(".") for part in inner)
-        if hidden or path.suffix.lower() not in _ENDINGS or UNFIT.search(name) or "\n" in name:
+        path = below(self.folder, name)
+        if path is None or path.suffix.lower() not in _ENDINGS or UNFIT.search(name) or "\n" in name:
             raise LinkwrightError(
                 _(
                     "{name} is not a model file below the folder in which the studio was started",

@@ -102,6 +102,7 @@ MEANINGS: Mapping[str, Message] = {
 #: What the areas of the codes of errors are about: what stands before the first dot.
 AREAS: Mapping[str, Message] = {
     "verdicts": pgettext("finding code", "whether a machine starts, its motor and brake"),
+    "assistants": pgettext("finding code", "tools for assistants"),
     "balance": pgettext("finding code", "the command balance"),
     "beam": pgettext("finding code", "beams"),
     "cam": pgettext("finding code", "the command cam"),

@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
+from linkwright.filesystem import allowed
 from linkwright.synthesis.free_curve.dyad_gain import NUMBERS, ROWS
 from linkwright.synthesis.free_curve.placing import FAR
 from linkwright.synthesis.free_curve.topology import Design, kernels, node_paths
@@ -268,7 +269,8 @@ PIECE = 24
 
 
 def read_curve(path: Path) -> Complexes:
-    """The curve of a file in the file's units; an SVG's y axis is turned upwards. Raises SynthesisError."""
+    """The curve of a file in the file's units; an SVG's y axis is turned up. Raises SynthesisError, RequestError."""
+    allowed(path)
     try:
         text = path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError):

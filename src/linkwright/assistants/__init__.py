@@ -1,0 +1,1 @@
+"""Tools for assistants: a server of the Model Context Protocol over the public library, bound to one folder."""

@@ -1,0 +1,207 @@
+"""Motion and forces at chosen positions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from contextlib import suppress
+from typing import Annotated
+
+import numpy as np
+from pydantic import Field
+
+from linkwright.assistants.answers import Answer, Answered, NextAction, numbers
+from linkwright.assistants.failures import entries, of_error
+from linkwright.assistants.tool import Desk, Model
+from linkwright.core.arrays import Floats, Indices
+from linkwright.core.outputs import Output
+from linkwright.errors import Finding, LinkwrightError, RequestError
+from linkwright.events.position_list import known_outputs, of_text
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.names import of_forces, results_meant
+from linkwright.kinematics.solve import solve_motion
+from linkwright.kinetostatics.forces import Forces
+from linkwright.kinetostatics.run import solve_forces
+from linkwright.kinetostatics.table import results_of
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.words import _
+from linkwright.words.message import in_language
+
+#: Positions and columns of a table at most; positions of the cycle on which angles are counted on.
+MOST_ROWS, MOST_COLUMNS, FINE = 60, 40, 360
+#: Names that are listed.
+LISTED = 200
+#: What is shown where no columns are asked for.
+USUAL = ("time", "input", "angle", "angular_velocity", "displacement", "slide_velocity", "effort", "named")
+
+
+class ColumnEntry(Answered):
+    """One quantity at the positions."""
+
+    name: str = Field(description="such as rocker.angle, C.velocity.x, reaction of a joint: 'B on rocker'")
+    unit: str = Field(description="SI unit of the values: rad, m, rad/s, m/s, N, N·m")
+    values: list[float | None] = Field(description="one per position; null where the position is not reached")
+
+
+class SolveAnswer(Answer):
+    """Motion and forces as a short table."""
+
+    columns: list[ColumnEntry] = Field(default_factory=list, description="quantities, each with a value per position")
+    reached: list[bool] = Field(default_factory=list, description="per position, whether the machine reaches it")
+    forces: bool = Field(default=False, description="whether joint forces and driver efforts were solved")
+    available: list[str] = Field(
+        default_factory=list, description="names that columns may have, where some were left out of this table"
+    )
+
+
+def solve_machine(
+    desk: Desk,
+    model: Model,
+    at: Annotated[
+        str,
+        Field(
+            description=(
+                "Positions: inputs of the first driver or times, with units, as a list '0 deg, 45 deg', a range with"
+                " a step '0..90 deg:10 deg', times '0 s, 0.5 s', or limit positions of a link 'rocker min, rocker "
+                "max'. Empty (default): equal steps over the whole cycle."
+            )
+        ),
+    ] = "",
+    columns: Annotated[
+        list[str],
+        Field(
+            description=(
+                "Quantities wanted: a column 'rocker.angle'; all of a link or point 'rocker', 'C.velocity'; a "
+                "pattern '*.angular_velocity'; a joint force 'reaction B on rocker'; 'driver.effort' (driving torque"
+                " or force). Empty (default): angles, velocities and driver efforts."
+            )
+        ),
+    ] = [],
+    positions: Annotated[
+        int, Field(ge=1, le=MOST_ROWS, description="Number of equal steps over the cycle where 'at' is empty.")
+    ] = 12,
+    static: Annotated[
+        bool, Field(description="true: forces without inertia (quasi-static). Default false: with inertia.")
+    ] = False,
+) -> SolveAnswer:
+    """Solve positions, velocities, accelerations, joint forces and driver efforts of a machine at chosen inputs or
+    times.
+
+    Use it for values at given positions, and for curves over the cycle in a few steps. For extreme values over the
+    cycle (largest torque, smallest transmission angle, stroke) use get_metrics: it is exact between positions. For a
+    picture use draw_machine. It reads only.
+    Units are SI (rad, m, s, N, N·m); angles, rates and moments are counter-clockwise positive; x to the right, y up.
+    A reaction is the force on the link that is named last. Forces need masses or loads in the model.
+    Comes back: a table of at most 60 positions and 40 columns, per position whether it is reached, and the names of
+    further columns.
+    """
+    mechanism, findings = desk.folder.source(model).mechanism()
+    motion, rows = _motion(mechanism, at, positions)
+    forces, refusal = _forces(motion, columns, static)
+    findings = [*findings, *refusal, *_unreached(motion, rows), *_notes(motion, forces)]
+    results = results_of(motion, forces)
+    picked = _picked(mechanism, motion, forces, columns, results)
+    listed = [] if len(picked) == len(results) else [each.column for each in results][:LISTED]
+    errors = [each for each in findings if each.severity == "error"]
+    summary = _(
+        "{name}: {reached} of {count} positions reached",
+        name=mechanism.name,
+        reached=int(motion.ok[rows].sum()),
+        count=len(rows),
+    )
+    return SolveAnswer(
+        ok=not errors,
+        summary=in_language(summary, desk.language),
+        findings=entries(findings, desk.language),
+        next=[NextAction(tool="get_metrics", why="extreme values over the cycle, exact between positions")],
+        columns=[
+            ColumnEntry(name=each.column, unit=each.unit, values=numbers(values[rows]))
+            for each, values in picked.items()
+        ],
+        reached=[bool(each) for each in motion.ok[rows]],
+        forces=forces is not None,
+        available=listed,
+    )
+
+
+def _motion(mechanism: Mechanism, at: str, positions: int) -> tuple[Motion, Indices]:
+    """The motion and the rows that are shown."""
+    if not at.strip():
+        share = -(-FINE // positions)
+        motion = solve_motion(mechanism, steps=positions * share, endpoint=True, failures="mark")
+        return motion, np.arange(0, motion.steps, share)
+    if not mechanism.drivers:
+        raise RequestError(_("the model has no driver, so there is no input to set", code="solve.no_input"))
+    listed = of_text(at, (mechanism.across, "time"))
+    known_outputs(mechanism, listed)
+    motion = listed.solved(mechanism)
+    if motion.steps > MOST_ROWS:
+        raise RequestError(
+            _(
+                "{count} positions are asked for; ask for {most} at most",
+                code="assistants.many_positions",
+                count=motion.steps,
+                most=MOST_ROWS,
+            )
+        )
+    return motion, np.arange(motion.steps)
+
+
+def _forces(motion: Motion, columns: list[str], static: bool) -> tuple[Forces | None, list[Finding]]:
+    """The forces where there is anything to carry, or they are asked for; what hinders them."""
+    mechanism = motion.mechanism
+    if not (mechanism.has_loads or static or of_forces(mechanism, columns)) or not motion.ok.any():
+        return None, []
+    try:
+        return solve_forces(motion, static=static), []
+    except LinkwrightError as error:
+        return None, of_error(error)
+
+
+def _unreached(motion: Motion, rows: Indices) -> list[Finding]:
+    """Why positions are not reached, each reason once."""
+    reasons = dict.fromkeys(motion.outcomes[row].sentence for row in rows if not motion.ok[row])
+    if not motion.ok.any():
+        refusal = motion.refusal()
+        return [Finding("error", "", "", refusal.sentence, "", refusal.code)]
+    return [Finding("warning", "", "", each, "", getattr(each, "code", "") or "motion.refused") for each in reasons]
+
+
+def _notes(motion: Motion, forces: Forces | None) -> list[Finding]:
+    notes = (*motion.notes, *(forces.notes if forces is not None else ()))
+    return [Finding("note", "", "", each, "", getattr(each, "code", "")) for each in notes]
+
+
+def _picked(
+    mechanism: Mechanism, motion: Motion, forces: Forces | None, columns: list[str], results: dict[Output, Floats]
+) -> dict[Output, Floats]:
+    """The quantities that are asked for behind time and inputs; the usual ones where none are."""
+    from linkwright.analysis.analysis import Analysis
+
+    found = {each: values for each, values in results.items() if each.kind in ("time", "input")}
+    if not columns:
+        found |= {each: values for each, values in results.items() if each.kind in USUAL}
+        return dict(list(found.items())[:MOST_COLUMNS])
+    solved: Motion | Forces = motion if forces is None else forces
+    for text in columns:
+        for each in _meant(motion, text, results):
+            if each in results:
+                found[each] = results[each]
+            elif each.of_motion or forces is not None:
+                found[each] = Analysis.of(solved).signal(each.name)(solved)
+    if len(found) > MOST_COLUMNS:
+        raise RequestError(
+            _(
+                "{count} columns are asked for; ask for {most} at most",
+                code="assistants.many_columns",
+                count=len(found),
+                most=MOST_COLUMNS,
+            )
+        )
+    return found
+
+
+def _meant(motion: Motion, text: str, results: Iterable[Output]) -> list[Output]:
+    """The results that a text means: a point by its own name, or anything that has a name among them."""
+    with suppress(LinkwrightError):
+        text = motion.point(text).name
+    return results_meant(motion.mechanism, text, results)

@@ -1,0 +1,205 @@
+"""Each tool with numbers known from elsewhere: hand computation, closed forms, an independent solution."""
+
+from __future__ import annotations
+
+import base64
+import json
+import math
+import struct
+from pathlib import Path
+
+import pytest
+from tests.assistants.calls import CRANK_ROCKER, call
+
+import linkwright as lw
+
+CRANK, COUPLER, ROCKER, FRAME = 1.0, 3.5, 2.5, 4.0
+
+
+def transmission_angle(crank: float, coupler: float, rocker: float, frame: float) -> float:
+    """The smallest one of a crank-rocker: it is at one of the two positions in line with the frame."""
+    found = []
+    for across in (frame - crank, frame + crank):
+        angle = math.acos((coupler**2 + rocker**2 - across**2) / (2 * coupler * rocker))
+        found.append(min(angle, math.pi - angle))
+    return min(found)
+
+
+def test_positions_velocities_accelerations_of_an_independent_solution() -> None:
+    found = call("solve_machine", model=CRANK_ROCKER, at="0 deg, 40 deg, 150 deg, 270 deg", columns=["rocker", "P"])
+    assert found.data["reached"] == [True] * 4 and not found.data["forces"]
+    known = {
+        "rocker.angle": [1.7721542, 1.6745706, 2.2911434, 2.3786009],
+        "rocker.angular_velocity": [-3.3333333, 0.63477278, 3.3692139, -2.5156246],
+        "rocker.angular_acceleration": [45.360921, 54.555457, -20.127707, -25.796819],
+        "coupler.P.position.x": [1.3715744, 1.5142487, 0.11866749, 0.16053969],
+        "coupler.P.velocity.y": [8.7614188, 5.6925112, -7.7101121, 0.33274902],
+        "coupler.P.acceleration.x": [-88.124663, -115.90952, 56.042720, 42.379251],
+    }
+    for name, values in known.items():
+        assert found.column(name) == pytest.approx(values, rel=1e-7), name
+
+
+def test_forces_are_those_of_the_library_and_balance_a_hand_computed_torque() -> None:
+    """A torque on the crank of a machine without masses is carried by the driver alone."""
+    text = lw.read_document(CRANK_ROCKER).text + "\nloads: {brake: {kind: torque, on: crank, magnitude: -7 N·m}}\n"
+    found = call("solve_machine", model=text, at="10 deg, 200 deg", columns=["driver.effort"])
+    assert found.data["forces"]
+    assert found.column("driver.effort") == pytest.approx([7.0, 7.0])
+    six = call("solve_machine", model="gallery:jaw_crusher_sixbar", columns=["driver.effort"], positions=4)
+    forces = lw.solve_forces(lw.solve_motion(lw.load("gallery:jaw_crusher_sixbar"), steps=360, endpoint=True))
+    assert six.column("driver.effort") == pytest.approx(list(forces.input_torque[::90]), rel=1e-7)
+
+
+def test_a_position_out_of_reach_has_no_values_and_says_why() -> None:
+    text = lw.read_document(CRANK_ROCKER).text.replace("length: 1 m", "length: 3.2 m")
+    found = call("solve_machine", model=text, at="90 deg, 180 deg")
+    assert found.data["ok"] and found.data["reached"] == [True, False]
+    assert found.column("rocker.angle")[1] is None
+    warning = next(each for each in found.data["findings"] if each["severity"] == "warning")
+    assert warning["next"]["tool"] == "draw_machine"
+
+
+def test_design_numbers_in_closed_form() -> None:
+    found = call("get_metrics", model=CRANK_ROCKER, names=["transmission_angle", "grashof"])
+    angle = next(each for each in found.data["metrics"] if each["metric"] == "transmission_angle")
+    assert angle["value"] == pytest.approx(transmission_angle(CRANK, COUPLER, ROCKER, FRAME), rel=1e-8)
+    assert angle["unit"] == "rad" and angle["exact"] and angle["limit"] == pytest.approx(math.radians(40.0))
+
+
+def test_the_picture_is_as_wide_as_asked_for() -> None:
+    found = call("draw_machine", model=CRANK_ROCKER, at="40 deg", paths=["P"], width=640, svg=True)
+    content = base64.b64decode(found.pictures[0])
+    assert content.startswith(b"\x89PNG") and struct.unpack(">I", content[16:20]) == (640,)
+    assert found.data["svg"].startswith("<svg") and "lw-trace" in found.data["svg"]
+
+
+def test_a_changed_length_keeps_comments_and_changes_the_stroke(tmp_path: Path) -> None:
+    """The stroke of an inline slider-crank is twice its crank."""
+    text = lw.read_document("gallery:slider_crank_inline").text
+    crank = lw.loads(text).dimension("crank.length")
+    found = call(
+        "change_dimension", tmp_path, model=text, changes={"crank.length": f"{1.2 * crank} m"}, save_as="a.yaml"
+    )
+    assert found.data["changed"][0]["before"] == pytest.approx(crank)
+    assert found.data["changed"][0]["after"] == pytest.approx(1.2 * crank)
+    assert [line for line in found.data["text"].splitlines() if "#" in line] == [
+        line for line in text.splitlines() if "#" in line
+    ]
+    assert (tmp_path / "a.yaml").read_text("utf-8") == found.data["text"] and found.data["written"] == "a.yaml"
+    stroke = call("get_metrics", tmp_path, model="a.yaml", names=["stroke"]).data["metrics"][0]
+    assert stroke["value"] == pytest.approx(2.4 * crank, rel=1e-8) and stroke["unit"] == "m"
+
+
+def test_points_of_a_drawing_follow_a_changed_length() -> None:
+    text = lw.read_document(CRANK_ROCKER).text.replace(
+        "assembly: {B: left}", "drawing: {A: [1 m, 0 m], B: [3.5 m, 2.45 m]}"
+    )
+    found = call("change_dimension", model=text, changes={"rocker.length": "2.6 m", "driver.speed": "5 rad/s"})
+    assert found.data["ok"], found.data["findings"]
+    after = lw.loads(found.data["text"])
+    assert after.dimension("rocker.length") == pytest.approx(2.6)
+    assert after.drivers["driver"].law.constant_speed == pytest.approx(5.0)
+
+
+def test_a_model_that_does_not_move_any_more_is_not_written(tmp_path: Path) -> None:
+    found = call("change_dimension", tmp_path, model=CRANK_ROCKER, changes={"crank.length": "5 m"}, save_as="a.yaml")
+    assert found.failed and found.data["text"] and not list(tmp_path.iterdir())
+
+
+def test_a_slider_crank_has_the_stroke_that_was_demanded(tmp_path: Path) -> None:
+    demands = {"stroke": "397.5 mm", "rod_ratio": 3.55, "offset_ratio": 0.305}
+    found = call("synthesize_machine", tmp_path, task="slider_crank", demands=demands, save_as="press.yaml")
+    best = found.data["candidates"][0]
+    crank, rod, offset = (best["values"][f"{name} [m]"] for name in ("crank", "rod", "offset"))
+    stroke = math.sqrt((rod + crank) ** 2 - offset**2) - math.sqrt((rod - crank) ** 2 - offset**2)
+    assert stroke == pytest.approx(0.3975, rel=1e-7)
+    measured = call("get_metrics", tmp_path, model="press.yaml", names=["stroke"]).data["metrics"][0]
+    assert measured["value"] == pytest.approx(0.3975, rel=1e-6)
+
+
+def test_the_best_coupler_is_that_of_the_closed_form() -> None:
+    asked = {"vary": {"coupler.length": "3.2..4 m"}, "maximize": ["transmission_angle"], "evaluations": 60}
+    found = call("optimize_machine", model=CRANK_ROCKER, **asked)
+    lengths = [3.2 + 0.8 * k / 20000 for k in range(20001)]
+    best = max(lengths, key=lambda length: transmission_angle(CRANK, length, ROCKER, FRAME))
+    assert found.data["variables"][0]["start"] == COUPLER
+    assert found.data["variables"][0]["found"] == pytest.approx(best, rel=1e-3)
+    number = found.data["numbers"][0]
+    assert number["start"] == pytest.approx(transmission_angle(CRANK, COUPLER, ROCKER, FRAME))
+    assert number["found"] == pytest.approx(transmission_angle(CRANK, best, ROCKER, FRAME), rel=1e-4)
+    assert lw.loads(found.data["text"]).dimension("coupler.length") == pytest.approx(
+        found.data["variables"][0]["found"]
+    )
+
+
+def test_demands_that_cannot_be_met_are_told_with_the_nearest_design() -> None:
+    asked = {"vary": {"coupler.length": "3.4..3.6 m"}, "minimize": ["coupler.length"], "evaluations": 40}
+    found = call("optimize_machine", model=CRANK_ROCKER, keep={"transmission_angle": "at least 89 deg"}, **asked)
+    assert found.failed and found.data["missed"] == ["transmission_angle"] and found.data["variables"]
+
+
+def test_two_machines_side_by_side() -> None:
+    text = lw.read_document(CRANK_ROCKER).text.replace("length: 3.5 m", "length: 3.8 m")
+    found = call("compare_machines", models=[CRANK_ROCKER, text], output="rocker", metrics=["transmission_angle"])
+    known = [transmission_angle(CRANK, each, ROCKER, FRAME) for each in (3.5, 3.8)]
+    row = found.data["criteria"][0]
+    assert row["values"] == pytest.approx(known, rel=1e-8) and row["better"] == "higher"
+    better = found.data["labels"][known.index(max(known))]
+    assert found.data["ranking"][0]["label"] == better and row["best"] == [better]
+
+
+def test_a_report_is_written_once(tmp_path: Path) -> None:
+    asked = {"model": CRANK_ROCKER, "file": "r.html", "sections": ["task", "structure"]}
+    found = call("write_report", tmp_path, **asked)
+    content = (tmp_path / "r.html").read_bytes()
+    assert found.data["file"] == "r.html" and found.data["bytes"] == len(content) and b"Crank-rocker" in content
+    assert call("write_report", tmp_path, **asked).codes == ["file.exists"]
+    assert call("write_report", tmp_path, **asked, overwrite=True).data["ok"]
+
+
+def test_a_model_is_checked_with_place_remedy_and_next_call() -> None:
+    found = call("check_model", model=CRANK_ROCKER)
+    assert found.data["ok"] and (found.data["links"], found.data["mobility"], found.data["structure_class"]) == (
+        3,
+        1,
+        2,
+    )
+    wrong = lw.read_document(CRANK_ROCKER).text.replace("length: 2.5 m", "lenght: 2.5 m")
+    finding = call("check_model", model=wrong).data["findings"][0]
+    assert (finding["code"], finding["key"]) == ("unknown-key", "links.rocker.lenght")
+    line = wrong.splitlines().index("  rocker: {points: [O2, B], lenght: 2.5 m}") + 1
+    assert finding["place"].startswith(f"model:{line}:") and "length" in finding["remedy"] + finding["message"]
+    assert finding["next"] == {
+        "tool": "read_schema",
+        "arguments": {"section": "links"},
+        "why": finding["next"]["why"],
+    }
+
+
+def test_the_gallery_is_searched_and_read() -> None:
+    found = call("search_gallery", words="quick return")
+    assert "gallery:shaper_quick_return" in [each["name"] for each in found.data["models"]]
+    assert len(call("search_gallery").data["models"]) > 60
+    assert call("search_gallery", name="kite").data["text"] == lw.read_document("gallery:kite").text
+    assert "kite" in call("search_gallery", name="kiet").data["findings"][0]["remedy"]
+
+
+def test_the_schema_has_every_section_and_kind() -> None:
+    schema = lw.json_schema()["properties"]
+    found = call("read_schema")
+    assert [each["name"] for each in found.data["sections"]] == list(schema)
+    assert lw.loads(found.data["example"]).name == "four-bar"
+    assert call("check_model", model=found.data["example"]).data["findings"] == []
+    assert call("read_schema", section="links").data["json_schema"] == json.loads(json.dumps(schema["links"]))
+    gear = call("read_schema", section="joints", kind="gear").data["json_schema"]
+    assert gear["properties"]["teeth"]["description"]
+    assert call("read_schema", section="link").data["findings"][0]["remedy"].count("links")
+
+
+def test_a_code_is_explained() -> None:
+    found = call("explain_finding", code="missing-unit")
+    assert found.data["meaning"] == "a number without its unit" and found.data["wrong"] and found.data["right"]
+    assert call("explain_finding", code="motion.refused").data["meaning"]
+    assert call("explain_finding", ".", "zh", code="missing-unit").data["meaning"] == "数没有单位"
+    assert call("explain_finding", code="mising-unit").failed
