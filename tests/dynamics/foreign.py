@@ -46,7 +46,7 @@ def by_mujoco(mechanism: lw.Mechanism, end: float, step: float) -> Places:
         start = lw.solve_motion(mechanism, times=[0.0])
         text = lw.export(start, Path(folder, "a.xml"), timestep=step).read_text("utf-8")
     text = re.sub(r"<actuator>.*</actuator>", "", text, flags=re.DOTALL)
-    text = re.sub(r' (armature|act|ctrl)="[^"]*"', "", text).replace("implicitfast", "RK4")
+    text = re.sub(r' (armature|act|ctrl)="[^"]*"', "", text).replace('"Euler"', '"RK4"')
     model: Any = mujoco.MjModel.from_xml_string(text)
     data: Any = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, 0)

@@ -12,7 +12,7 @@ from linkwright.exporters.mjcf.elements import HEAVY, numbers
 from linkwright.mechanism.mechanism import Mechanism
 
 #: Natural frequency of the position servo times the time step.
-SERVO = 0.2
+SERVO = 0.5
 SAMPLES = 241
 
 
