@@ -63,5 +63,22 @@ def parse_xml(text: str, remarks: Remarks) -> Element | None:
     return roots[0]
 
 
+class Lines:
+    """Lines of elements by their tags and names; of those without a name 0."""
+
+    def __init__(self, root: Element) -> None:
+        self.found: dict[tuple[str, str], int] = {}
+        pending = [root]
+        while pending:
+            element = pending.pop()
+            if element.get("name"):
+                self.found.setdefault((element.tag, element.get("name")), element.line)
+            pending += element.children
+
+    def of(self, name: str, *tags: str) -> int:
+        """The line of the first element of these tags that has a name."""
+        return next((self.found[tag, name] for tag in tags if (tag, name) in self.found), 0)
+
+
 class _DocumentType(Exception):
     """A document type declaration."""

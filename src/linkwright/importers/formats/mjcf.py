@@ -1,0 +1,88 @@
+"""MuJoCo models (MJCF): planar machines with their loops, as MuJoCo itself resolves defaults, includes and frames."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from linkwright.exporters.export import package
+from linkwright.importers.foreign import READERS, Answers, ForeignFormat, ForeignText
+from linkwright.importers.layout import Layout, Remarks
+from linkwright.importers.trees.mujoco_model import MujocoModel
+from linkwright.importers.trees.mujoco_tree import mujoco_tree
+from linkwright.importers.trees.tree_layout import tree_layout
+from linkwright.importers.xml_tree import Lines, parse_xml
+from linkwright.words import _
+
+#: Mass (kg) that bodies without any get where MuJoCo would refuse the model.
+MASSLESS = 1e-9
+
+
+def read(source: ForeignText, answers: Answers, remarks: Remarks) -> Layout | None:
+    """The layout of a model; see :class:`MujocoModel`."""
+    root = parse_xml(source.text, remarks)
+    if root is None:
+        return None
+    if root.tag != "mujoco":
+        message = _("the root element is <{tag}>, not <mujoco>", tag=root.tag)
+        remarks.remark("error", message, _("give a file of MuJoCo"), "import.mjcf_root", line=root.line)
+        return None
+    mujoco = package("mujoco", _("models of MuJoCo"))
+    compiled = _compiled(mujoco, source, remarks)
+    if compiled is None:
+        return None
+    tree = mujoco_tree(MujocoModel(mujoco, compiled, Lines(root), answers, remarks))
+    return None if tree is None else tree_layout(tree, remarks)
+
+
+def recognises(source: ForeignText) -> bool:
+    """Whether a text is of a MuJoCo model."""
+    return "<mujoco" in source.text
+
+
+READERS.register("mjcf")(ForeignFormat(_("MuJoCo model"), (".xml", ".mjcf"), recognises, read))
+
+
+def _compiled(mujoco: Any, source: ForeignText, remarks: Remarks) -> Any:
+    """The compiled model; meshes whose files are missing are left out. None, with an error: MuJoCo refuses it."""
+    path = None if source.folder is None else source.folder / source.name
+    try:
+        spec = _parsed(mujoco, source.text, path)
+        try:
+            return spec.compile()
+        except ValueError as error:
+            reason = " ".join(str(error).split())
+            spec = _without_meshes(_parsed(mujoco, source.text, path))
+            spec.compiler.boundmass, spec.compiler.boundinertia = MASSLESS, MASSLESS**2
+            found = spec.compile()
+    except (ValueError, FileNotFoundError) as error:
+        reason = " ".join(str(error).split())
+        message = _("MuJoCo does not take the model ({reason})", reason=reason)
+        remarks.remark("error", message, _("mend the file until MuJoCo loads it"), "import.mjcf_refused")
+        return None
+    message = _(
+        "the model is read without its meshes and missing masses, as MuJoCo does not take it ({reason})",
+        reason=reason,
+    )
+    remedy = _("give masses and mass centres, or the mesh files beside the model")
+    remarks.remark("warning", message, remedy, "import.mjcf_meshes")
+    return found
+
+
+def _parsed(mujoco: Any, text: str, path: Path | None) -> Any:
+    spec = mujoco.MjSpec.from_string(text) if path is None else mujoco.MjSpec.from_file(str(path))
+    spec.compiler.fusestatic = False
+    return spec
+
+
+def _without_meshes(spec: Any) -> Any:
+    """The model without what needs files: meshes, height fields, textures, skins."""
+    for each in [shape for shape in spec.geoms if shape.meshname or shape.hfieldname]:
+        spec.delete(each)
+    for each in (*spec.meshes, *spec.hfields, *spec.skins):
+        spec.delete(each)
+    for material in spec.materials:
+        material.textures = [""] * len(material.textures)
+    for each in list(spec.textures):
+        spec.delete(each)
+    return spec

@@ -1,0 +1,126 @@
+"""MuJoCo models read as model files: positions over a cycle against MuJoCo's own kinematics, loads, findings."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.importers.mujoco_positions import MujocoPositions
+
+import linkwright as lw
+
+FILES = Path(__file__).parent / "mjcf"
+AXES = dict(zip("xyz", np.eye(3), strict=True))
+#: Files with their driven joint, how far it goes, and the plane in which one looks at the machine.
+CASES = {
+    "four_bar": ("O", 2 * np.pi, "xy"),
+    "slider_crank_upright": ("turn", 2 * np.pi, "xz"),
+    "watt_defaults": ("O", 2 * np.pi, "xy"),
+    "open_sites": ("O", 2 * np.pi, "xy"),
+    "gears_and_belt": ("ja", 2 * np.pi, "xy"),
+    "rack": ("turn", 1.5, "xy"),
+    "pin_in_slot": ("O", 2 * np.pi, "xy"),
+    "welded_halves": ("O", 2 * np.pi, "xy"),
+    "planetary_tendons": ("js", 2 * np.pi, "xy"),
+    "gripper": ("rd", 0.7, "yz"),
+    "springs": ("O", 1.5, "xy"),
+    "closed_by_curves": ("O", 2 * np.pi, "xy"),
+}
+
+
+@pytest.mark.parametrize("file", CASES)
+def test_moves_as_in_mujoco(file: str) -> None:
+    joint, far, axes = CASES[file]
+    moved = np.linspace(0, far, 19)
+    machine = lw.loads(lw.read_foreign(FILES / f"{file}.xml", driver=joint, speed=1.0).text)
+    motion = lw.solve_motion(machine, times=moved)
+    there = MujocoPositions(FILES / f"{file}.xml", joint, *(AXES[each] for each in axes))
+    if file == "closed_by_curves":
+        there.by_pins()
+    before: dict[str, complex] = {}
+    names = [name for name in machine.links if name in there.bodies()]
+    assert len(names) > 1 or file == "springs"
+    for row, _unused in enumerate(there.at_each(moved)):
+        for name in names:
+            link = motion.link(name)
+            if file != "welded_halves":
+                assert link.centre.position[row] == pytest.approx(there.centre(name), abs=1e-9), (name, row)
+            turned = np.exp(1j * (link.angle[row] - link.angle[0]))
+            now = there.direction(name)
+            assert turned * before.setdefault(name, now) == pytest.approx(now, abs=1e-9), (name, row)
+
+
+def codes(found: lw.Foreign) -> list[str]:
+    return [each.code for each in found.findings]
+
+
+def test_names_masses_colours_and_places_are_kept() -> None:
+    found = lw.read_foreign(FILES / "four_bar.xml")
+    machine = found.mechanism
+    assert machine.name == "four bar" and list(machine.links) == ["crank", "coupler", "rocker"]
+    assert machine.links["coupler"].points.keys() == {"A", "B", "C"}
+    assert machine.links["crank"].colour == "#cc3300" and not machine.links["rocker"].colour
+    # a capsule of 100 mm between its ends, 10 mm thick, of density 1000 kg/m³: cylinder and sphere
+    assert machine.links["crank"].mass == pytest.approx(np.pi * 25e-6 * (0.1 + 4 / 3 * 0.005) * 1000)
+    assert machine.gravity == (0, -9.81)
+    assert codes(found) == ["import.no_speed"] and found.findings[0].where == "<file>".replace(
+        "<file>", "four_bar.xml:7:1"
+    )
+
+
+def test_gravity_and_places_of_an_upright_plane() -> None:
+    machine = lw.read_foreign(FILES / "slider_crank_upright.xml", speed=2.0).mechanism
+    assert machine.gravity == (0, -9.81)
+    assert machine.frame.points["turn"] == pytest.approx((0.02, 0.5))
+    assert next(iter(machine.drivers.values())).law.constant_speed == pytest.approx(
+        -2.0
+    )  # about +y is clockwise where z is up
+
+
+def test_a_spring_of_a_hinge_and_one_between_sites() -> None:
+    machine = lw.read_foreign(FILES / "springs.xml", driver="O", speed=1.0).mechanism
+    motion = lw.solve_motion(machine, times=[0.0, 0.4])
+    forces = lw.solve_forces(motion)
+    for row, angle in enumerate((np.radians(30), np.radians(30) - 0.4)):
+        # about -z: the spring's torque -4 (q - 20°), the damper's -0.5 q', with q' = 1 rad/s
+        turning = 4 * ((np.radians(30) - angle) - np.radians(20)) + 0.5
+        end = 0.25 * np.array([np.cos(angle), np.sin(angle)])
+        away = np.array([0.2, 0.3]) - end
+        length = np.hypot(*away)
+        rate = 0.25 * (-away / length) @ np.array([np.sin(angle), -np.cos(angle)])
+        pull = (300 * (length - 0.12) + 7 * rate) * away / length
+        weight = -9.81 * 2 * 0.1 * np.cos(angle)
+        balance = turning + end[0] * pull[1] - end[1] * pull[0] + weight
+        assert motion.point("end").position[row] == pytest.approx(end, abs=1e-12)
+        assert forces.driver_effort("driver")[row] == pytest.approx(-balance, rel=1e-9)
+
+
+def test_limits_of_the_driven_joint_are_its_cycle() -> None:
+    found = lw.read_foreign(FILES / "gripper.xml", speed=0.1)
+    assert "cycle: {from: 45 deg, to: 90.836" in found.text
+    assert codes(found).count("import.limits") == 1 and "import.loose" in codes(found)
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("<mujoco><worldbody/></mujoco>", "import.no_plane"),
+        ("<robot/>", "import.mjcf_root"),
+        ("<mujoco><worldbody>", "import.xml"),
+        ('<!DOCTYPE a [<!ENTITY b "c">]><mujoco/>', "import.document_type"),
+        ('<mujoco><worldbody><body name="a" shape="b"/></worldbody></mujoco>', "import.mjcf_refused"),
+        ("{}<joint type='ball'/>{}", "import.spatial"),
+        ("{}<joint axis='0 0 1'/><joint axis='0 1 1'/>{}", "import.spatial"),
+        ("{}<freejoint/><body pos='1 0 0'><joint/><geom size='.1'/></body>{}", "import.floating"),
+    ],
+)
+def test_refuses(text: str, code: str) -> None:
+    body = text.format("<mujoco><worldbody><body name='a'>", "<geom size='.1'/></body></worldbody></mujoco>")
+    found = lw.read_foreign(body, format="mjcf")
+    assert code in codes(found) and not found.ok and not found.text
+
+
+def test_a_floating_base_is_the_frame_where_one_says_so() -> None:
+    text = """<mujoco><worldbody><body name="base" pos="0 0 1"><freejoint/><geom size=".1"/>
+      <body name="arm" pos=".1 0 0"><joint name="J" axis="0 1 0"/>
+      <geom type="capsule" size=".01" fromto="0 0 0 .2 0 0"/></body></body></worldbody></mujoco>"""
+    assert lw.read_foreign(text, fixed="base", driver="J", speed=1.0).mechanism.frame.points["J"] == (0.1, 1.0)
