@@ -80,8 +80,8 @@ def export(
             loads; or any other result, as its tables: ``csv`` (its curves or columns where it has some), ``xlsx``,
             ``json`` (its ``data()``), ``markdown``, ``html``.
         path: the file; its ending chooses the format.
-        format: ``csv``, ``xlsx``, ``json``, ``markdown``, ``parquet``, ``dxf``, ``mjcf``, ``modelica``, ``python``,
-            ``svg``, ``png``, ``pdf``, where the ending does not say it.
+        format: ``csv``, ``xlsx``, ``json``, ``markdown``, ``parquet``, ``dxf``, ``mjcf``, ``modelica``, ``linkage``,
+            ``python``, ``svg``, ``png``, ``pdf``, where the ending does not say it.
         force: replace a file that exists.
         steps: positions over the cycle, for a mechanism.
         language: ``en`` or ``zh``, of headings and drawings.

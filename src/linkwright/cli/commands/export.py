@@ -17,6 +17,7 @@ NAMES = (
     "dxf",
     "html",
     "json",
+    "linkage",
     "markdown",
     "mjcf",
     "modelica",
@@ -35,7 +36,7 @@ OPTIONS = (
 
 
 @command(
-    _("write results for other programs: Excel, CSV, Parquet, DXF, MuJoCo, Modelica"),
+    _("write results for other programs: Excel, CSV, Parquet, DXF, MuJoCo, Modelica, Linkage"),
     _(
         """\
 Solves a mechanism over its cycle, with forces where it has masses or loads, and
@@ -44,7 +45,8 @@ writes the results to a file; the file's ending chooses the format.
   .xlsx           one sheet per subject            .dxf    drawing at true scale
   .xml            MuJoCo model (MJCF)              .mo     Modelica model
   .svg .png .pdf  kinematic drawing                .html   living page, works without a network
-  .md             table of the metrics             .py     Python program that solves the machine"""
+  .md             table of the metrics             .py     Python program that solves the machine
+  .linkage2       Linkage file of the motion"""
     ),
     _(
         """\
