@@ -134,7 +134,8 @@ def run(options: Options, session: Session) -> int:
     report = None
     if form.report is not None:
         asked |= {name: value for name, value in settings.items() if name in options_of(form.report)}
-        report = form.report(Results.of(solved, options.steps), **asked)
+        results = Results.of(solved, options.steps)
+        solved, report = results.forces or results.motion, form.report(results, **asked)
     settings |= {"force": options.force, "steps": options.steps, "language": session.language}
     export(solved, path, format=chosen, **settings)
     written = {"path": str(path), "format": chosen}
