@@ -161,9 +161,8 @@ class Designer:
                 message = _('the actuator "{key}" is switched off', key=each.text("id"))
                 each.remark("note", message, _("switch it on in OpenLinkage"), "import.switched_off")
                 continue
-            name = free_name(each.text("id"), [stroke.name for stroke in self.strokes], "A")
             phase, ratio = each.number("phaseOffset", 0.0), each.number("cycleRatio", 1.0)
-            self.strokes.append(Stroke(name, found, phase, ratio))
+            self.strokes.append(Stroke(each.text("id"), found, phase, ratio))
             if "forceLimit" in each:
                 message = _("a limit of the actuator's force ({limit} kN) is not read", limit=each.text("forceLimit"))
                 each.remark("note", message, _("compare it with the driver's force"), "import.force_limit")
@@ -399,6 +398,9 @@ class Designer:
     def turning(self, bar: Bar, pivot: str, pin: str) -> None:
         """A bar that turns (positive clockwise as seen), or oscillates by a cosine."""
         body = self.gone.get(bar.name, bar.name)
+        if body == FRAME:
+            message = _('"{key}" cannot turn: it is rigid with the frame', key=bar.key)
+            bar.json.remark("error", message, _("mend it in OpenLinkage"), "import.driver")
         drive = Drive(turn=body, about=self.names[pivot], speed=self.answers.speed or -USUAL_SPEED)
         if self.root.text("driverMode") == "oscillation":
             high, low = self.swing(bar)
@@ -424,7 +426,8 @@ class Designer:
             message = _('the bar "{key}" ends where nothing is', key=stroke.bar.key)
             stroke.bar.json.remark("error", message, _("add a bar there in OpenLinkage"), "import.driver")
             return
-        self.layout.drives.append(Drive(stroke.name, between=((one, a), (other, b)), added=self.added(stroke)))
+        name = free_name(stroke.name, self.layout.taken(), "A")
+        self.layout.drives.append(Drive(name, between=((one, a), (other, b)), added=self.added(stroke)))
         ratios = [Fraction(each.ratio).limit_denominator(24) for each in self.strokes]
         self.layout.cycle = {"duration": self.duration(ratios)}
 

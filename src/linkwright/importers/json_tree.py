@@ -53,9 +53,13 @@ class Json:
     def entries(self, key: str) -> dict[str, Json]:
         """The values of a mapping by their keys; none where there is no such key."""
         found = self.get(key)
-        if found is None or not isinstance(found.node, Mapping):
+        return {} if found is None else found.own_entries()
+
+    def own_entries(self) -> dict[str, Json]:
+        """The values of this mapping by their keys."""
+        if not isinstance(self.node, Mapping):
             return {}
-        return {name: Json(node, found.below(name), self.remarks) for name, node in found.node}
+        return {name: Json(node, self.below(name), self.remarks) for name, node in self.node}
 
     def text(self, key: str, default: str = "") -> str:
         """A text, or a number as it is written."""

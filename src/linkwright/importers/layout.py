@@ -144,6 +144,12 @@ class Layout:
         """The frame and the bodies."""
         return [self.frame, *self.bodies.values()]
 
+    def taken(self) -> set[str]:
+        """Names that a driver cannot have: of links, points, guides, wheels, other drivers."""
+        points = {point for body in self.all for point in body.places}
+        joints = {each.name for each in self.slides} | {each.name for each in self.wheels}
+        return points | joints | {each.name for each in self.drives} | self.bodies.keys()
+
     def drawing(self) -> Mapping[str, Vec]:
         """The place of each point that is not the frame's: that of the first body which has it."""
         found: dict[str, Vec] = {}
@@ -155,11 +161,11 @@ class Layout:
 
 
 class Remarks:
-    """Findings about a foreign file, each with its place there."""
+    """Findings about a foreign file, each with its place there; about a second file with those of the first."""
 
-    def __init__(self, file: str) -> None:
+    def __init__(self, file: str, found: list[Finding] | None = None) -> None:
         self.file = file
-        self.found: list[Finding] = []
+        self.found = [] if found is None else found
 
     def remark(
         self,

@@ -8,21 +8,11 @@ from linkwright.importers.foreign import Answers
 from linkwright.importers.json_tree import Json
 from linkwright.importers.layout import Body, Drive, Layout
 from linkwright.importers.model_text import RPM
+from linkwright.importers.settle import meeting
 from linkwright.mechanism.link import Vec
 from linkwright.words import _
 
 MM = 1e-3
-
-
-def meeting(one: Vec, radius: float, other: Vec, other_radius: float, left: bool) -> Vec | None:
-    """Where two circles meet, to the left of the line from the first centre to the other or to its right."""
-    dx, dy = other[0] - one[0], other[1] - one[1]
-    apart = math.hypot(dx, dy)
-    if not abs(radius - other_radius) <= apart <= radius + other_radius or apart == 0:
-        return None
-    along = (radius**2 - other_radius**2 + apart**2) / (2 * apart)
-    height = math.sqrt(max(0.0, radius**2 - along**2)) * (1 if left else -1)
-    return one[0] + (along * dx - height * dy) / apart, one[1] + (along * dy + height * dx) / apart
 
 
 def beside(start: Vec, end: Vec, ratio: float, offset: float) -> Vec:

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 #: Steps from the drawing to where the machine begins; iterations of one step.
 LED, ITERATIONS = 40, 60
+#: How far a point may go in an iteration, as a share of the size.
+FARTHEST = 0.25
 #: What is left of a residual, as a share of the size, that is rounding.
 CLOSED = 1e-13
 
@@ -145,12 +147,15 @@ def settle(
             if not wrong.size or np.abs(wrong).max() <= CLOSED * size:
                 break
             change = np.linalg.lstsq(slopes, -wrong, rcond=1e-10)[0]
+            change *= min(1.0, FARTHEST * size / (float(np.abs(change).max()) or 1.0))
             at |= {
                 name: (at[name][0] + float(change[2 * k]), at[name][1] + float(change[2 * k + 1]))
                 for k, name in enumerate(movable)
             }
             if np.abs(change).max() <= 1e-15 * size:
                 break
+        else:
+            break  # no place holds them all
     wrong, _slopes = _system(at, 1.0, constraints, movable)
     return at, float(np.abs(wrong).max(initial=0.0))
 
@@ -178,3 +183,14 @@ def _system(
             if name in columns:
                 slopes[number, columns[name] : columns[name] + 2] += x, y
     return np.array([wrong for wrong, _gradient in rows]), slopes
+
+
+def meeting(one: Vec, radius: float, other: Vec, other_radius: float, left: bool) -> Vec | None:
+    """Where two circles meet, to the left of the line from the first centre to the other or to its right."""
+    dx, dy = other[0] - one[0], other[1] - one[1]
+    apart = math.hypot(dx, dy)
+    if not abs(radius - other_radius) <= apart <= radius + other_radius or apart == 0:
+        return None
+    along = (radius**2 - other_radius**2 + apart**2) / (2 * apart)
+    height = math.sqrt(max(0.0, radius**2 - along**2)) * (1 if left else -1)
+    return one[0] + (along * dx - height * dy) / apart, one[1] + (along * dy + height * dx) / apart
