@@ -163,6 +163,16 @@ def test_a_wedge_is_closed_by_ratios() -> None:
     assert found["incline(floor)"] == pytest.approx([0, 1 / np.cos(angle), 0, 0, 0], abs=1e-12)
 
 
+def test_the_ends_of_an_open_cycle_are_in_the_file() -> None:
+    """The parallelogram turns from 10° to 170°; a crank-rocker turns on."""
+    numbers = {
+        each.get("name"): each.get("data") for each in elements(store.machine("parallelogram")).iter("numeric")
+    }
+    ends = [float(each) for each in numbers["driver.range"].split()]
+    assert ends == pytest.approx(np.radians([10.0, 170.0]), abs=1e-12)
+    assert elements(store.machine("crank_rocker")).find("custom") is None
+
+
 def test_gears_and_racks_tie_their_joints() -> None:
     """20 and 40 teeth outside each other; a pinion of 40 mm on a rack."""
     mechanism = store.machine("external_gear_pair")

@@ -6,7 +6,7 @@ import xml.etree.ElementTree as ET
 
 from linkwright.core.arguments import real
 from linkwright.exporters.mjcf.bodies import Chains
-from linkwright.exporters.mjcf.drives import actuators, key, laws, reflected_inertia, steady
+from linkwright.exporters.mjcf.drives import actuators, key, laws_and_ranges, reflected_inertia, steady
 from linkwright.exporters.mjcf.elements import compiler, equality, numbers, tendons, world
 from linkwright.exporters.mjcf.loops import CLOSURE, closed_loops
 from linkwright.exporters.results import Results, seconds
@@ -25,8 +25,9 @@ def mjcf_content(
     Every joint's coordinate is Linkwright's: angle of the second link against the first, or displacement of the
     block. Key frame ``start`` holds coordinates, rates and controls of the first position that was reached; from
     there a driver of constant speed runs by itself, other laws lie in ``numeric`` elements (NAME.time,
-    NAME.position, NAME.rate). ``timestep`` in s; default a 20 000th of the cycle. Constraints are as stiff as the
-    time step allows (``solref`` 2 time steps). Loads of the model are not part of the file, gravity is.
+    NAME.position, NAME.rate), as does the range of a cycle that does not close (NAME.range). ``timestep`` in s;
+    default a 20 000th of the cycle. Constraints are as stiff as the time step allows (``solref`` 2 time steps).
+    Loads of the model are not part of the file, gravity is.
 
     ``loops``: ``auto`` takes polynomials, at most of fourth degree, where they leave gaps of at most ``closure`` (m),
     ``joint`` demands them, ``connect`` takes none. See :func:`linkwright.mujoco_loops`.
@@ -40,7 +41,7 @@ def mjcf_content(
     reflected = reflected_inertia(chains)
     parts = [world(chains, reflected), equality(chains, closed), tendons(chains)]
     if results.mechanism.drivers:
-        parts += [actuators(chains, reflected, step), laws(chains)]
+        parts += [actuators(chains, reflected, step), laws_and_ranges(chains)]
     for part in (*parts, key(chains)):
         if len(part):
             root.append(part)
@@ -61,7 +62,7 @@ def _options(root: ET.Element, results: Results, step: float) -> None:
     ET.SubElement(ET.SubElement(root, "option", option), "flag", contact="disable")
     stiff = ET.SubElement(root, "default")
     ET.SubElement(stiff, "equality", solref=numbers((2 * step, 1.0)), solimp="0.9999 0.9999 0.001 0.5 2")
-    ET.SubElement(stiff, "geom", contype="0", conaffinity="0", mass="0", rgba="0.3 0.45 0.6 1")
+    ET.SubElement(stiff, "geom", contype="0", conaffinity="0", mass="0")
 
 
 def _written(root: ET.Element) -> bytes:

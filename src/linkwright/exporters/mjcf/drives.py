@@ -13,7 +13,8 @@ from linkwright.mechanism.mechanism import Mechanism
 
 #: Natural frequency of the position servo times the time step.
 SERVO = 0.5
-SAMPLES = 241
+#: Samples of a law; MuJoCo 3 reads 500 numbers at most.
+SAMPLES = 481
 
 
 def reflected_inertia(chains: Chains) -> dict[str, float]:
@@ -62,8 +63,9 @@ def controls(mechanism: Mechanism, times: Floats) -> Floats:
     return np.stack(found, axis=1)
 
 
-def laws(chains: Chains) -> ET.Element:
-    """Samples of the laws that are not a constant speed."""
+def laws_and_ranges(chains: Chains) -> ET.Element:
+    """Samples of the laws that are not a constant speed; of a constant speed over an open cycle its smallest and
+    largest coordinate."""
     custom = ET.Element("custom")
     motion = chains.motion
     time = np.linspace(float(motion.time.min()), float(motion.time.max()), SAMPLES)
@@ -72,6 +74,9 @@ def laws(chains: Chains) -> ET.Element:
             position, rate, _ = driver.law.coordinate(time)
             for kind, values in (("time", time), ("position", position), ("rate", rate)):
                 ET.SubElement(custom, "numeric", name=f"{name}.{kind}", data=numbers(values))
+        elif motion.positions.cycle and not motion.positions.closed:
+            ends = sorted(motion.inputs[name][[0, -1]])
+            ET.SubElement(custom, "numeric", name=f"{name}.range", data=numbers(ends))
     return custom
 
 
