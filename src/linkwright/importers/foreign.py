@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -10,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from linkwright.core.arguments import describe
-from linkwright.errors import Finding, ModelError, RequestError
+from linkwright.errors import Finding, ModelError, RequestError, with_remedy
 from linkwright.file_check import checked_text
 from linkwright.files.model_file import read_text
 from linkwright.files.source import read_bytes
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism
 
 
+_OWN = re.compile(r"^(gallery:|format: *1\b)", re.MULTILINE)
 #: Units of length.
 LENGTHS = tuple(name for name, (_factor, kind) in UNITS.items() if kind == DIMENSIONS["length"])
 
@@ -170,7 +172,13 @@ def _source(source: str | Path) -> ForeignText:
 
 def _is_text(source: str) -> bool:
     """Whether a string is a text or a link, and no name of a file."""
-    return "\n" in source or "://" in source or source.lstrip()[:1] in ("<", "{") or len(source) > 1000
+    return (
+        "\n" in source
+        or "://" in source
+        or source.startswith("gallery:")
+        or source.lstrip()[:1] in ("<", "{")
+        or len(source) > 1000
+    )
 
 
 def _format_of(source: ForeignText) -> str:
@@ -182,11 +190,13 @@ def _format_of(source: ForeignText) -> str:
     fitting: Sequence[str] = [name for name in by_ending or READERS if READERS[name].recognises(source)]
     if len(fitting) == 1:
         return fitting[0]
-    raise RequestError(
-        _(
-            "{name}: no format that is read here is recognised; say which of {names} it is",
-            code="import.no_format",
-            name=source.name,
-            names=tuple(fitting) or tuple(READERS),
+    if _OWN.search(source.text) or source.name.endswith((".yaml", ".yml")):
+        message = _(
+            "{name} is a model file of Linkwright, not of another program", code="import.own", name=source.name
         )
-    )
+        raise RequestError(with_remedy(message, _("use it as it is, with any other command")))
+    if fitting:
+        message = _("{name}: it may be {names}", code="import.format_unclear", name=source.name, names=tuple(fitting))
+        raise RequestError(with_remedy(message, _("say which with --format, or format=")))
+    message = _("{name}: this is no format that is read here", code="import.no_format", name=source.name)
+    raise RequestError(with_remedy(message, _("formats are {names}", names=tuple(READERS))))
