@@ -123,3 +123,70 @@ def test_what_a_link_holds() -> None:
     assert found.traced == ("BC.C",) and mechanism.gravity == (0.0, -9.81)
     assert "F1: {kind: force, on: BC, at: F1, components: [0, 12.5 N]}" in found.text
     assert [each.code for each in found.findings if each.severity == "warning"] == []
+
+
+def codes(text: str) -> list[str]:
+    """Codes of what is found in a link, without the units."""
+    return [each.code for each in lw.read_foreign(text).findings if each.code != "import.units"]
+
+
+def test_a_link_that_was_changed_on_its_way() -> None:
+    exact, plain = LINKS["exact numbers"], LINKS["four-bar"]
+    assert codes(exact) == codes(plain) == []
+    assert codes(exact.replace("VG", "VH", 1)) == ["import.damaged_link"]  # only the digest sees it
+    assert codes(plain.replace("VG", "VH", 1)) == []  # the check character stands for the length alone
+    assert "import.damaged_link" in codes(plain.replace("VG", "V", 1))
+    cut = lw.read_foreign(plain[:80])
+    assert not cut.ok and [each.code for each in cut.findings][-1] == "import.cut_link"
+
+
+def test_findings_have_the_column_of_their_record() -> None:
+    text = link(*FOUR_BAR, bar("A", "B"), bar("B", "C"), bar("C", "X"))
+    (missing,) = [each for each in lw.read_foreign(text).findings if each.severity == "error"]
+    column = text.index("YRCX") + 1
+    assert missing.code == "import.missing" and missing.where == f"<text>:1:{column}" and missing.key == "CX"
+    unknown = link(*FOUR_BAR, bar("A", "B"), bar("B", "C"), bar("C", "D")).replace("YRBC", "ZRBC")
+    assert "import.no_record" in codes(unknown)
+    assert "import.no_correction" in codes(link(*FOUR_BAR, bar("A", "B"), tail=".PJX~0~1"))
+    assert "import.old_link" in codes("https://app.pmksplus.com/?j=A,0,0&l=AB")
+
+
+def test_slots() -> None:
+    half = link(*INVERTED, point("1", "P", 0, 1, 0, ",CD,C"), bar("A", "B"), bar("C", "D"), block("B", "P"))
+    assert "import.missing" in codes(half)
+    off = link(*INVERTED, point("1", "P", 0, 1.1, 0, ",CD,C,D"), bar("A", "B"), bar("C", "D"), block("B", "P"))
+    assert "import.off_line" in codes(off)
+    snapped = lw.read_foreign(LINKS["slider-crank on an inclined guide"])
+    assert "direction: 30 deg" in snapped.text
+    assert "import.angle_rounded" in [each.code for each in snapped.findings]
+
+
+def test_a_gripper_of_mobility_0_is_refused() -> None:
+    jaws = {"F": (-2, 2), "G": (0, 2), "H": (-2, -2), "I": (0, -2)}
+    corners = [point("0", each, *place) for each, place in jaws.items()]
+    rails = [point("5", f"{each}r", *place, math.pi / 2) for each, place in jaws.items()]
+    plate = [point("0", "A", -1.9, 0), point("7", "P", -1.9, 0), point("0", "B", -1, 1), point("0", "C", -1, -1)]
+    plate += [point("0", "D", 1, 1), point("0", "E", 1, -1)]
+    bars = [bar("A", "B", "C", "D", "E"), bar("B", "F"), bar("D", "G"), bar("C", "H"), bar("E", "I")]
+    bars += [bar("F", "G"), bar("H", "I")]
+    blocks = [block("A", "P"), *(block(each, f"{each}r") for each in jaws)]
+    found = lw.read_foreign(link(*plate, *corners, *rails, *bars, *blocks))
+    errors = [each.code for each in found.findings if each.severity == "error"]
+    assert not found.ok and errors == ["mobility.excess"]
+
+
+def test_speed_driver_and_unit_can_be_said() -> None:
+    text = LINKS["four-bar"]
+    assert "speed: 2 rad/s" in lw.read_foreign(text, speed=2.0).text
+    assert "B: [0 in, 2 in]" in lw.read_foreign(text, unit="in").text
+    assert "turn: CD, about: C, relative_to: BC" in lw.read_foreign(text, driver="C").text
+    unknown = lw.read_foreign(text, driver="Z")
+    assert not unknown.ok and "import.no_such_driver" in [each.code for each in unknown.findings]
+    still = link(*FOUR_BAR, bar("A", "B"), bar("B", "C"), bar("C", "D"), head="2P.Fe,1E8.0,0.1011")
+    assert not lw.read_foreign(still).ok and lw.read_foreign(still, speed=1.0).ok
+
+
+def test_a_driver_that_cannot_turn_through_goes_to_and_fro() -> None:
+    found = lw.read_foreign(LINKS["driven pin between two links"])
+    assert "cycle: rock" in found.text and "import.to_and_fro" in [each.code for each in found.findings]
+    assert lw.solve_motion(found.mechanism, steps=24).complete

@@ -30,6 +30,12 @@ def shortest(value: float, tolerance: float = 0.0) -> str:
     return number(value + 0.0)
 
 
+def turning(speed: float) -> str:
+    """A rate of turning (rad/s) in the unit in which it is the shorter number."""
+    written = (f"{shortest(speed / RPM, 1e-12)} rpm", f"{shortest(speed, 1e-13)} rad/s")
+    return min(written, key=lambda text: len(text.split()[0]))
+
+
 class Writer:
     """Writes one layout; lengths in its unit, within its precision."""
 
@@ -197,8 +203,7 @@ class Writer:
         elif drive.speed is None:
             law = {"free": True}
         else:
-            rate = f"{shortest(drive.speed / RPM, 1e-12)} rpm" if rotary else f"{self.length(drive.speed)}/s"
-            law = {"speed": rate}
+            law = {"speed": turning(drive.speed) if rotary else f"{self.length(drive.speed)}/s"}
         if drive.table is None and drive.added is None and not began.startswith("0 "):
             law["start"] = began
         return {**self.driven(drive), **law}
