@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
 
 import anyio
 from mcp import Client
+from mcp.server.mcpserver import MCPServer
 
 from linkwright.assistants.server import server
 
@@ -35,11 +37,17 @@ class Called:
         return next(each["values"] for each in self.data["columns"] if each["name"] == name)
 
 
+@cache
+def kept(folder: str, language: str) -> MCPServer[Any]:
+    """The server of a folder; it keeps nothing between calls."""
+    return server(folder, language=language)
+
+
 def asked(ask: Callable[[Client], Awaitable[T]], folder: Path | str = ".", language: str = "en") -> T:
     """What a client gets of a server of a folder."""
 
     async def run() -> T:
-        async with Client(server(folder, language=language)) as client:
+        async with Client(kept(str(folder), language)) as client:
             return await ask(client)
 
     return anyio.run(run)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import json
 import math
+import shutil
 import struct
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from tests.assistants.calls import CRANK_ROCKER, call
 
 import linkwright as lw
 
+IMPORTERS = Path(__file__).parents[1] / "importers"
 CRANK, COUPLER, ROCKER, FRAME = 1.0, 3.5, 2.5, 4.0
 
 
@@ -104,7 +106,7 @@ def test_points_of_a_drawing_follow_a_changed_length() -> None:
 
 def test_a_model_that_does_not_move_any_more_is_not_written(tmp_path: Path) -> None:
     found = call("change_dimension", tmp_path, model=CRANK_ROCKER, changes={"crank.length": "5 m"}, save_as="a.yaml")
-    assert found.failed and found.data["text"] and not list(tmp_path.iterdir())
+    assert not found.data["ok"] and found.data["text"] and not list(tmp_path.iterdir())
 
 
 def test_a_slider_crank_has_the_stroke_that_was_demanded(tmp_path: Path) -> None:
@@ -136,7 +138,12 @@ def test_the_best_coupler_is_that_of_the_closed_form() -> None:
 def test_demands_that_cannot_be_met_are_told_with_the_nearest_design() -> None:
     asked = {"vary": {"coupler.length": "3.4..3.6 m"}, "minimize": ["coupler.length"], "evaluations": 40}
     found = call("optimize_machine", model=CRANK_ROCKER, keep={"transmission_angle": "at least 89 deg"}, **asked)
-    assert found.failed and found.data["missed"] == ["transmission_angle"] and found.data["variables"]
+    assert (
+        not found.failed
+        and not found.data["ok"]
+        and found.data["missed"] == ["transmission_angle"]
+        and found.data["variables"]
+    )
 
 
 def test_two_machines_side_by_side() -> None:
@@ -203,3 +210,56 @@ def test_a_code_is_explained() -> None:
     assert call("explain_finding", code="motion.refused").data["meaning"]
     assert call("explain_finding", ".", "zh", code="missing-unit").data["meaning"] == "数没有单位"
     assert call("explain_finding", code="mising-unit").failed
+
+
+EXPECTING = """\
+format: 1
+name: expecting
+frame: {points: {O1: [0 mm, 0 mm], O2: [4 m, 0 mm]}}
+links:
+  crank: {points: [O1, A], length: 1 m}
+  coupler: {points: [A, B], length: 3.5 m}
+  rocker: {points: [O2, B], length: 2.5 m}
+assembly: {B: left}
+driver: {turn: crank, about: O1, speed: 10 rad/s}
+expect: {transmission_angle: at least 40 deg, mobility: 2}
+"""
+
+
+def test_expectations_are_evaluated_where_a_model_has_some() -> None:
+    """The smallest transmission angle is 57.12165° in closed form, the mobility 3·3 − 2·4 = 1."""
+    found = call("check_model", model=EXPECTING)
+    first, second = found.data["expectations"]
+    assert not found.failed and not found.data["ok"]
+    assert first["holds"] and first["found"].startswith("57.12") and "40" in first["expected"]
+    assert not second["holds"] and second["found"] == "1" and found.codes == ["not-met"]
+    mended = call("change_dimension", model=EXPECTING, changes={"expect.mobility": "1"})
+    assert mended.data["ok"] and [each["holds"] for each in mended.data["expectations"]] == [True, True]
+    assert call("check_model", model=CRANK_ROCKER).data["expectations"] == []
+
+
+def test_files_of_other_programs_are_read_as_models(tmp_path: Path) -> None:
+    """Lengths are those that stand in the file."""
+    for name in ("open_linkage/coordinates_off.json", "linkage/four_bar.linkage2"):
+        shutil.copy(IMPORTERS / name, tmp_path)
+    found = call("check_model", tmp_path, model="coordinates_off.json")
+    assert found.data["foreign_format"] == "open_linkage" and found.data["ok"] and found.data["mobility"] == 1
+    model = lw.loads(found.data["text"])
+    data = json.loads((tmp_path / "coordinates_off.json").read_text("utf-8"))
+    lengths = sorted(each["length"] / 1000 for each in data["bars"])
+    assert sorted(each.lengths[0] for each in model.links.values()) == pytest.approx(lengths, rel=1e-6)
+    as_text = call("check_model", tmp_path, model=json.dumps(data))
+    assert as_text.data["text"] == found.data["text"].replace(", coordinates_off.json", "") or as_text.data["ok"]
+    xml = call("check_model", tmp_path, model="four_bar.linkage2")
+    assert xml.data["foreign_format"] == "linkage" and lw.loads(xml.data["text"]).links
+    refused = call("get_metrics", tmp_path, model="four_bar.linkage2")
+    assert refused.codes == ["assistants.foreign"] and "check_model" in refused.data["summary"]
+    assert call("check_model", tmp_path, model="{}").failed
+    assert call("check_model", tmp_path, model="coordinates_off.json", foreign={"unit": "furlong"}).codes == [
+        "import.no_unit"
+    ]
+
+
+def test_a_model_of_ours_in_json_is_no_file_of_another_program() -> None:
+    text = json.dumps({"format": 1, "name": "x", "frame": {"points": {"O": ["0 mm", "0 mm"]}}, "links": {}})
+    assert call("check_model", model=text).data["foreign_format"] == ""

@@ -49,7 +49,7 @@ class FindingEntry(Answered):
 class Answer(Answered):
     """What all tools answer."""
 
-    ok: bool = Field(description="false: there is an error among the findings and no result")
+    ok: bool = Field(description="false: there is an error among the findings")
     summary: str = Field(description="the result in a sentence")
     findings: list[FindingEntry] = Field(default_factory=list, description="errors first")
     next: list[NextAction] = Field(default_factory=list, description="calls that usually come next")

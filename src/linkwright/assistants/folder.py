@@ -72,9 +72,7 @@ class Folder:
             return Source(text, name, given, self.path)
         if is_text(given):
             return Source(model, "model", "", self.path)
-        path = self.file(given)
-        if not path.is_file():
-            raise ModelError([self._absent(given)])
+        path = self.existing(given)
         text, _unused = read_source(path)
         inner = path.relative_to(self.path).as_posix()
         return Source(text, inner, inner, path.parent)
@@ -82,6 +80,13 @@ class Folder:
     def file(self, name: str) -> Path:
         """The path of a name in the folder; raises RequestError for one that leads elsewhere."""
         return within(self.path, name)
+
+    def existing(self, name: str) -> Path:
+        """The path of a file that is there; raises RequestError for one elsewhere, ModelError for one that is not."""
+        path = self.file(name)
+        if not path.is_file():
+            raise ModelError([self._absent(name)])
+        return path
 
     def _absent(self, name: str) -> Finding:
         """That there is no such file, with the nearest one."""
@@ -115,4 +120,4 @@ class Folder:
 
 def is_text(model: str) -> bool:
     """Whether an argument is the text of a model and not the name of a file."""
-    return "\n" in model or model.startswith(("{", "format:", "%", "---"))
+    return "\n" in model or "://" in model or model.startswith(("{", "[", "<", "format:", "%", "---"))

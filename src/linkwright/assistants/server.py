@@ -141,12 +141,15 @@ def answered(desk: Desk, tool: Tool, arguments: Mapping[str, Any]) -> CallToolRe
         return refused(tool, [_error("", message)], desk.language)
 
 
-def result(answer: Answer) -> CallToolResult:
-    """An answer as data, the same as text for clients that read text alone, and its pictures."""
+def result(answer: Answer, *, failed: bool = False) -> CallToolResult:
+    """An answer as data, the same as text for clients that read text alone, and its pictures.
+
+    ``failed``: the call has no result. A model with errors is the result of checking it.
+    """
     data = answer.model_dump(mode="json")
     content: list[ContentBlock] = [TextContent(type="text", text=answer.model_dump_json(exclude_defaults=True))]
     content += [ImageContent(type="image", data=each, mime_type="image/png") for each in answer.pictures]
-    return CallToolResult(content=content, structured_content=data, is_error=not answer.ok)
+    return CallToolResult(content=content, structured_content=data, is_error=failed)
 
 
 def refused(tool: Tool, findings: list[Finding], language: str) -> CallToolResult:
@@ -154,7 +157,7 @@ def refused(tool: Tool, findings: list[Finding], language: str) -> CallToolResul
     listed = entries(findings, language)
     first = next((each.message for each in listed if each.severity == "error"), "")
     summary = in_language(_("no result: {cause}", cause=first), language)
-    return result(tool.answer(ok=False, summary=summary, findings=listed))
+    return result(tool.answer(ok=False, summary=summary, findings=listed), failed=True)
 
 
 def _unknown(tool: Tool, arguments: Mapping[str, Any]) -> list[Finding]:

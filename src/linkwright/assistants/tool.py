@@ -10,7 +10,8 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from linkwright.assistants.answers import Answer
-from linkwright.assistants.folder import Folder
+from linkwright.assistants.folder import Folder, Source
+from linkwright.assistants.foreign import refuse_foreign
 
 #: The model that most tools take.
 Model = Annotated[
@@ -44,6 +45,11 @@ class Desk:
 
     folder: Folder
     language: str = "en"
+
+    def source(self, model: str) -> Source:
+        """The model that an argument means; raises LinkwrightError, for one of another program as well."""
+        refuse_foreign(self.folder, model)
+        return self.folder.source(model)
 
 
 @dataclass(frozen=True)

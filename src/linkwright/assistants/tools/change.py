@@ -9,6 +9,7 @@ from pydantic import Field
 from linkwright.assistants.answers import Answer, Answered, NextAction, number
 from linkwright.assistants.failures import entries
 from linkwright.assistants.tool import Desk, Model, Overwrite, SaveAs
+from linkwright.assistants.tools.check import ExpectationEntry, expected, without_plain_notes
 from linkwright.designs.ranges import dimension_of, parse_range
 from linkwright.designs.varied_dimensions import changed_text, moves
 from linkwright.errors import RequestError
@@ -34,6 +35,9 @@ class ChangeAnswer(Answer):
 
     text: str = Field(default="", description="the whole new text of the model file, comments and order kept")
     changed: list[ChangeEntry] = Field(default_factory=list, description="dimensions that have another value now")
+    expectations: list[ExpectationEntry] = Field(
+        default_factory=list, description="what the model's section expect demands, and whether it holds now"
+    )
     written: str = Field(default="", description="file in the folder that holds it now; empty where none was written")
 
 
@@ -61,13 +65,13 @@ def change_dimension(
     Comes back: the new text, each changed dimension before and after (SI), and the findings of check_model about the
     new model. A file is written only where save_as names one in the folder, and only if the new model has no errors.
     """
-    source = desk.folder.source(model)
+    source = desk.source(model)
     target = desk.folder.target(save_as, overwrite=overwrite) if save_as else None
     document = source.document()
     before = document.mechanism
     text = _changed(document, changes)
     after = document.with_text(text).mechanism
-    found = checked_text(text, source.name, str(source.folder))
+    found = checked_text(text, source.name, str(source.folder), expect=True)
     written = ""
     if target is not None and not found.errors:
         written = desk.folder.write(target, text.encode(), overwrite=overwrite)
@@ -76,10 +80,11 @@ def change_dimension(
     return ChangeAnswer(
         ok=not found.errors,
         summary=in_language(summary, desk.language),
-        findings=entries(found.findings, desk.language),
+        findings=entries(without_plain_notes(found.findings), desk.language),
         next=[NextAction(tool="get_metrics", why="what the change does to the design numbers")],
         text=text,
         changed=listed,
+        expectations=expected(found.expectations, desk.language),
         written=written,
     )
 

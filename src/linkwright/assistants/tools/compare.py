@@ -84,7 +84,7 @@ def compare_machines(
     Comes back: numbers of every machine (SI), which is best in each, a ranking with scores, an evaluation in
     sentences, and notes where unlike things are compared (other loads, other speeds).
     """
-    machines = [desk.folder.source(each).mechanism()[0] for each in models]
+    machines = [desk.source(each).mechanism()[0] for each in models]
     found = compare(machines, metrics=metrics or None, weights=weights or None, output=output or None)
     data = found.data()
     best = found.ranking[0]

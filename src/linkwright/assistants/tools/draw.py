@@ -72,7 +72,7 @@ def draw_machine(
     x points right, y up. Comes back: a PNG image, its width, notes on what was asked for and cannot be seen; SVG if
     asked.
     """
-    mechanism, findings = desk.folder.source(model).mechanism()
+    mechanism, findings = desk.source(model).mechanism()
     motion = solve_motion(mechanism, steps=DRAWING_STEPS, failures="mark")
     drawing = draw(
         motion,

@@ -7,10 +7,10 @@ from typing import Annotated
 from pydantic import Field
 
 from linkwright.assistants.answers import Answer, NextAction
-from linkwright.assistants.failures import entries, next_action
+from linkwright.assistants.failures import next_action
 from linkwright.assistants.mends import MENDS
 from linkwright.assistants.tool import Desk
-from linkwright.errors import Finding
+from linkwright.errors import Finding, ModelError
 from linkwright.registry import offered
 from linkwright.words import _
 from linkwright.words.code_meanings import AREAS, MEANINGS
@@ -43,16 +43,13 @@ def explain_finding(
     values; this tool knows the code alone and reads no model.
     Comes back: the meaning, a wrong and a right example where there is one, and the call that helps next.
     """
-    area = code.partition(".")[0]
-    meaning = MEANINGS.get(code) or (AREAS.get(area) if "." in code else None)
+    mend, area = MENDS.get(code), code.partition(".")[0]
+    meaning = MEANINGS.get(code) or (mend.meaning if mend else None) or (AREAS.get(area) if "." in code else None)
     if meaning is None:
         message = _('there is no code "{name}"', code="assistants.code", name=code)
         remedy = offered(code, [*MEANINGS, *AREAS], _("such as {names}"), most=6)
         finding = Finding("error", "", "code", message, remedy, "assistants.code")
-        return ExplainAnswer(
-            ok=False, summary=in_language(message, desk.language), findings=entries([finding], desk.language)
-        )
-    mend = MENDS.get(code)
+        raise ModelError([finding])
     helps = next_action(Finding("error", "", "", "", "", code))
     steps = [helps] if helps is not None and helps.tool != "explain_finding" else []
     return ExplainAnswer(

@@ -8,9 +8,8 @@ from pydantic import Field
 
 from linkwright import gallery
 from linkwright.assistants.answers import Answer, Answered, NextAction
-from linkwright.assistants.failures import entries
 from linkwright.assistants.tool import Desk
-from linkwright.errors import Finding
+from linkwright.errors import Finding, ModelError
 from linkwright.files.gallery_entries import entries as gallery_entries
 from linkwright.registry import nearest
 from linkwright.words import _
@@ -75,22 +74,16 @@ def search_gallery(
         for each in found
         if all(word in _haystack(each) for word in wanted)
     ]
-    text, findings = _text(name)
-    if name and not findings:
-        listed = []
+    text = _text(name)
+    summary = _("the text of {name}", name=name) if text else _("{count} models fit", count=len(listed))
+    first = (
+        {"model": f"gallery:{name.removeprefix('gallery:')}" if text else listed[0].name} if text or listed else {}
+    )
     return GalleryAnswer(
-        ok=not findings,
-        summary=in_language(
-            _("{count} models fit", count=len(listed)) if not text else _("the text of {name}", name=name),
-            desk.language,
-        ),
-        findings=entries(findings, desk.language),
-        next=[
-            NextAction(
-                tool="check_model", arguments={"model": listed[0].name} if listed else {}, why="what the model is"
-            )
-        ],
-        models=listed,
+        ok=True,
+        summary=in_language(summary, desk.language),
+        next=[NextAction(tool="check_model", arguments=first, why="what the model is")],
+        models=[] if text else listed,
         files=desk.folder.models(),
         text=text,
     )
@@ -101,16 +94,16 @@ def _haystack(entry: dict[str, str]) -> str:
     return " ".join(parts).replace("_", " ").lower()
 
 
-def _text(name: str) -> tuple[str, list[Finding]]:
-    """The text of a file of the gallery, or the finding that there is none."""
+def _text(name: str) -> str:
+    """The text of a file of the gallery, empty where none is asked for; raises ModelError where there is none."""
     if not name:
-        return "", []
+        return ""
     plain = name.removeprefix("gallery:").removesuffix(".yaml")
     try:
-        return gallery.content(plain).decode(), []
+        return gallery.content(plain).decode()
     except KeyError:
         known = (*gallery.names(), *gallery.calculations(), *gallery.tasks())
         near = nearest(plain, known)
         remedy = _('did you mean "{offer}"?', offer=near) if near else _("leave the name out to list all")
         message = _('the gallery has no model "{name}"', code="gallery.unknown", name=plain)
-        return "", [Finding("error", "", "name", message, remedy, "gallery.unknown")]
+        raise ModelError([Finding("error", "", "name", message, remedy, "gallery.unknown")]) from None

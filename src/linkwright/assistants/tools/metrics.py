@@ -67,7 +67,7 @@ def get_metrics(
     """
     for name in names:
         METRICS[name]
-    mechanism, findings = desk.folder.source(model).mechanism()
+    mechanism, findings = desk.source(model).mechanism()
     found = applicable_metrics(mechanism, names or None, forces=None, steps=STEPS, failures="mark")
     values = list(found.table)
     findings = [*findings, *_remarks(values), *(_note(each) for each in (*found.inapplicable, *found.table.notes))]

@@ -105,7 +105,7 @@ def optimize_machine(
     model text with the best values, and of several objectives a front of designs. A file is written only where
     save_as names one.
     """
-    source = desk.folder.source(model)
+    source = desk.source(model)
     target = desk.folder.target(save_as, overwrite=overwrite) if save_as else None
     asked: dict[str, Any] = {"vary": vary, "minimize": minimize, "maximize": maximize, "keep": keep}
     settings = {key: value for key, value in asked.items() if value}

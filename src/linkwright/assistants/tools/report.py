@@ -58,7 +58,7 @@ def write_report(
     Comes back: the file's name and size, and the sections that had nothing to show. The report itself does not come
     back.
     """
-    source = desk.folder.source(model)
+    source = desk.source(model)
     target = desk.folder.target(file, ENDINGS, overwrite=overwrite)
     mechanism, findings = source.mechanism()
     found = report(mechanism.translate(language), sections=sections, language=language, folder=str(source.folder))

@@ -8,9 +8,9 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from linkwright.assistants.answers import Answer, Answered, NextAction
-from linkwright.assistants.failures import entries
+from linkwright.assistants.mends import EXAMPLE
 from linkwright.assistants.tool import Desk
-from linkwright.errors import Finding
+from linkwright.errors import Finding, ModelError
 from linkwright.fields.base import Schema
 from linkwright.files.model_file import json_schema
 from linkwright.registry import listed
@@ -19,20 +19,6 @@ from linkwright.words.message import in_language
 
 #: Characters of a schema that are given at most.
 LONGEST = 30_000
-EXAMPLE = """\
-format: 1
-name: four-bar
-frame:
-  points: {O1: [0 mm, 0 mm], O2: [400 mm, 0 mm]}
-links:
-  crank: {points: [O1, A], length: 100 mm}
-  coupler: {points: [A, B], length: 350 mm, also: {P: [150 mm, 100 mm]}}
-  rocker: {points: [O2, B], length: 250 mm, mass: 2 kg, inertia: 0.01 kg·m², mass_centre: [125 mm, 0 mm]}
-assembly: {B: left}
-driver: {turn: crank, about: O1, speed: 60 rpm}
-loads:
-  work: {kind: torque, on: rocker, magnitude: -20 N·m}
-"""
 
 
 class SectionEntry(Answered):
@@ -96,11 +82,11 @@ def read_schema(
             example=EXAMPLE,
         )
     if section not in properties:
-        return _unknown("section", section, list(properties), desk.language)
+        raise _unknown("section", section, list(properties))
     shape = properties[section]
     kinds = {str(each.get("title", "")): each for each in _kinds(shape)}
     if kind and kind not in kinds:
-        return _unknown("kind", kind, list(kinds), desk.language)
+        raise _unknown("kind", kind, list(kinds))
     chosen = kinds[kind] if kind else shape
     fits = len(json.dumps(chosen)) <= LONGEST and (kind != "" or len(kinds) < 2)
     return SchemaAnswer(
@@ -136,7 +122,6 @@ def _entry(name: str, shape: Schema) -> SectionEntry:
     return SectionEntry(name=name, about=str(shape.get("description", "")), keys=list(keys))
 
 
-def _unknown(argument: str, name: str, known: list[str], language: str) -> SchemaAnswer:
+def _unknown(argument: str, name: str, known: list[str]) -> ModelError:
     message = _('a model file has no {argument} "{name}"', code="assistants.schema", argument=argument, name=name)
-    finding = Finding("error", "", argument, message, listed(name, known), "assistants.schema")
-    return SchemaAnswer(ok=False, summary=in_language(message, language), findings=entries([finding], language))
+    return ModelError([Finding("error", "", argument, message, listed(name, known), "assistants.schema")])

@@ -94,7 +94,7 @@ def solve_machine(
     Comes back: a table of at most 60 positions and 40 columns, per position whether it is reached, and the names of
     further columns.
     """
-    mechanism, findings = desk.folder.source(model).mechanism()
+    mechanism, findings = desk.source(model).mechanism()
     motion, rows = _motion(mechanism, at, positions)
     forces, refusal = _forces(motion, columns, static)
     findings = [*findings, *refusal, *_unreached(motion, rows), *_notes(motion, forces)]
