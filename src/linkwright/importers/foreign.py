@@ -14,7 +14,7 @@ from linkwright.core.arguments import describe
 from linkwright.errors import Finding, ModelError, RequestError, with_remedy
 from linkwright.file_check import checked_text
 from linkwright.files.model_file import read_text
-from linkwright.files.source import read_bytes
+from linkwright.files.source import ENDINGS, read_bytes
 from linkwright.importers.layout import Layout, Remarks
 from linkwright.importers.model_text import model_text
 from linkwright.registry import Registry, offered
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from linkwright.mechanism.mechanism import Mechanism
 
 
-_OWN = re.compile(r"^(gallery:|format: *1\b)", re.MULTILINE)
+_OWN = re.compile(r"(?:\s*#.*\n)*\s*(?:gallery:|\{?\s*\"?format\"?: *1\b)")
 #: Units of length.
 LENGTHS = tuple(name for name, (_factor, kind) in UNITS.items() if kind == DIMENSIONS["length"])
 
@@ -172,13 +172,8 @@ def _source(source: str | Path) -> ForeignText:
 
 def _is_text(source: str) -> bool:
     """Whether a string is a text or a link, and no name of a file."""
-    return (
-        "\n" in source
-        or "://" in source
-        or source.startswith("gallery:")
-        or source.lstrip()[:1] in ("<", "{")
-        or len(source) > 1000
-    )
+    begins = source.lstrip().startswith(("<", "{", "gallery:"))
+    return begins or "\n" in source or "://" in source or len(source) > 1000
 
 
 def _format_of(source: ForeignText) -> str:
@@ -190,13 +185,12 @@ def _format_of(source: ForeignText) -> str:
     fitting: Sequence[str] = [name for name in by_ending or READERS if READERS[name].recognises(source)]
     if len(fitting) == 1:
         return fitting[0]
-    if _OWN.search(source.text) or source.name.endswith((".yaml", ".yml")):
-        message = _(
-            "{name} is a model file of Linkwright, not of another program", code="import.own", name=source.name
-        )
+    name = source.name
+    if _OWN.match(source.text) or suffix in ENDINGS[:2]:
+        message = _("{name} is a model file of Linkwright, not of another program", code="import.own", name=name)
         raise RequestError(with_remedy(message, _("use it as it is, with any other command")))
     if fitting:
-        message = _("{name}: it may be {names}", code="import.format_unclear", name=source.name, names=tuple(fitting))
+        message = _("{name}: it may be {names}", code="import.format_unclear", name=name, names=tuple(fitting))
         raise RequestError(with_remedy(message, _("say which with --format, or format=")))
-    message = _("{name}: this is no format that is read here", code="import.no_format", name=source.name)
+    message = _("{name}: this is no format that is read here", code="import.no_format", name=name)
     raise RequestError(with_remedy(message, _("formats are {names}", names=tuple(READERS))))
