@@ -20,7 +20,7 @@ pages.make()
 project = "Linkwright"
 author = "Linkwright contributors"
 copyright = "2026, Linkwright contributors"
-extensions = ["myst_parser", "sphinx_design", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+extensions = ["myst_parser", "sphinx_design", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "navigation"]
 autodoc_default_options = {
     "members": True,
     "inherited-members": "BaseException, Exception, tuple",
