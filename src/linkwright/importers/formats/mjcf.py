@@ -8,14 +8,14 @@ from typing import Any
 from linkwright.exporters.export import package
 from linkwright.importers.foreign import READERS, Answers, ForeignFormat, ForeignText
 from linkwright.importers.layout import Layout, Remarks
-from linkwright.importers.trees.mujoco_model import MujocoModel
+from linkwright.importers.trees.mujoco_model import NO_INERTIA, NO_MASS, MujocoModel
 from linkwright.importers.trees.mujoco_tree import mujoco_tree
 from linkwright.importers.trees.tree_layout import tree_layout
 from linkwright.importers.xml_tree import Lines, parse_xml
 from linkwright.words import _
 
-#: Mass (kg) that bodies without any get where MuJoCo would refuse the model.
-MASSLESS = 1e-9
+#: Mass (kg) and moment of inertia (kg·m²) of bodies without any, as MuJoCo demands some.
+MASSLESS, INERTIALESS = 0.5 * NO_MASS, 0.5 * NO_INERTIA
 
 
 def read(source: ForeignText, answers: Answers, remarks: Remarks) -> Layout | None:
@@ -53,7 +53,7 @@ def _compiled(mujoco: Any, source: ForeignText, remarks: Remarks) -> Any:
         except ValueError as error:
             reason = " ".join(str(error).split())
             spec = _without_meshes(_parsed(mujoco, source.text, path))
-            spec.compiler.boundmass, spec.compiler.boundinertia = MASSLESS, MASSLESS**2
+            spec.compiler.boundmass, spec.compiler.boundinertia = MASSLESS, INERTIALESS
             found = spec.compile()
     except (ValueError, FileNotFoundError) as error:
         reason = " ".join(str(error).split())
@@ -72,6 +72,9 @@ def _compiled(mujoco: Any, source: ForeignText, remarks: Remarks) -> Any:
 def _parsed(mujoco: Any, text: str, path: Path | None) -> Any:
     spec = mujoco.MjSpec.from_string(text) if path is None else mujoco.MjSpec.from_file(str(path))
     spec.compiler.fusestatic = False
+    # a model with larger bounds has bodies without mass, which they are here as well
+    spec.compiler.boundmass = min(spec.compiler.boundmass, MASSLESS)
+    spec.compiler.boundinertia = min(spec.compiler.boundinertia, INERTIALESS)
     return spec
 
 

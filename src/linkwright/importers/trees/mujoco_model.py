@@ -17,8 +17,8 @@ from linkwright.words import _
 
 #: MuJoCo's colour of shapes that have none.
 GREY = (0.5, 0.5, 0.5)
-#: Masses (kg) below this were put in to make a model loadable.
-NO_MASS = 2e-9
+#: Masses (kg) and moments of inertia (kg·m²) below these were put in to make a model loadable.
+NO_MASS, NO_INERTIA = 2e-9, 4e-15
 
 
 class MujocoModel:
@@ -160,7 +160,8 @@ class MujocoModel:
         part = Part(self.names[body], line=self.lines.of(self.names[body], "body"), colour=self._colour(body))
         part.centre = self.plane.place(np.array(data.xipos[body]))
         if mass > NO_MASS:
-            part.mass, part.inertia = mass, self.plane.inertia(tensor)
+            inertia = self.plane.inertia(tensor)
+            part.mass, part.inertia = mass, inertia if inertia > NO_INERTIA else 0.0
         part.marks = self.marks(body)
         if len(part.marks) < 2:
             part.marks |= self._tip(body)

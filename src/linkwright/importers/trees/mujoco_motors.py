@@ -7,7 +7,7 @@ import numpy as np
 from linkwright.importers.trees.motors import add_driver
 from linkwright.importers.trees.mujoco_kinds import is_one_of
 from linkwright.importers.trees.mujoco_model import MujocoModel
-from linkwright.importers.trees.tree import Motor, Tree
+from linkwright.importers.trees.tree import Motor, Tree, TreeJoint
 from linkwright.words import _
 
 
@@ -24,6 +24,7 @@ def add_motors(read: MujocoModel, tree: Tree) -> None:
             read.remarks.remark("warning", message, remedy, "import.mjcf_actuator", key=name)
         else:
             found.setdefault(joint, Motor(name, joint, _rate(read, joint), _law(read, name, joint)))
+            _range(read, name, tree.joints[joint])
     add_driver(tree, list(found.values()), read.answers, read.remarks)
 
 
@@ -56,6 +57,14 @@ def _law(read: MujocoModel, driver: str, joint: str) -> tuple[list[float], list[
     at = int(read.model.jnt_qposadr[read.joint_names.index(joint)])
     began = float(read.model.key_time[0]) if read.model.nkey else 0.0
     return [each - began for each in samples[0]], [each - float(read.model.qpos0[at]) for each in samples[1]]
+
+
+def _range(read: MujocoModel, driver: str, joint: TreeJoint) -> None:
+    """Sets the ends between which a driver's cycle runs, where Linkwright wrote them."""
+    ends = _numbers(read, f"{driver}.range")
+    if len(ends) == 2:
+        at = int(read.model.jnt_qposadr[read.joint_names.index(joint.name)])
+        joint.low, joint.high = (each - float(read.model.qpos0[at]) for each in ends)
 
 
 def _numbers(read: MujocoModel, name: str) -> list[float]:
