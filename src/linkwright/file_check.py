@@ -188,11 +188,15 @@ def _of_machine(mechanism: Mechanism, folder: str, *, rests: bool) -> tuple[list
     from linkwright.kinematics.assembly import AssemblyError
     from linkwright.kinematics.passing import plainly_passed
     from linkwright.kinematics.structure_with_rank import analysed
+    from linkwright.plausibility.constant import of_outputs
+    from linkwright.plausibility.drawing import of_drawing, of_near_points
+    from linkwright.plausibility.moving import of_laws, of_structure
 
     try:
         built = analysed(mechanism)
         if not all(driver.law.prescribed for driver in mechanism.drivers.values()):
-            return _of_free(mechanism, folder), _facts(mechanism, built)
+            shown = [*of_structure(mechanism, built), *of_near_points(mechanism)]
+            return [*_of_free(mechanism, folder), *shown], _facts(mechanism, built)
         swings = _swings(mechanism)
         plain = plainly_passed(
             mechanism, built, TRIED, [output for each in swings.values() for output in each.outputs]
@@ -200,7 +204,8 @@ def _of_machine(mechanism: Mechanism, folder: str, *, rests: bool) -> tuple[list
         turned, notes = _turned(mechanism) if plain is None else ([], [])
     except LinkwrightError as error:
         parts = (isinstance(error, AssemblyError) and error.parts) or (("", error.sentence),)
-        return [Finding("error", "", key, message, code=code_of(message)) for key, message in parts], {}
+        faults = [Finding("error", "", key, message, code=code_of(message)) for key, message in parts]
+        return [*faults, *of_near_points(mechanism)], {}
     sure = plain or [False] * len(swings)
     unsure = [
         load
@@ -215,6 +220,11 @@ def _of_machine(mechanism: Mechanism, folder: str, *, rests: bool) -> tuple[list
         *_of_friction(mechanism),
         *(() if turned else _of_strokes(mechanism, None)),
         *_of_settings(mechanism, folder, moves=not turned),
+        *of_structure(mechanism, built),
+        *of_laws(mechanism),
+        *of_drawing(mechanism, built),
+        *of_near_points(mechanism),
+        *(() if turned else of_outputs(mechanism, built)),
         *notes,
         *_assumed(mechanism, built),
     ]

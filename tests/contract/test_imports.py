@@ -30,6 +30,7 @@ STAGES = (
     ("analysis", "machine", "worked_solutions"),
     ("designs", "synthesis", "cams", "gears", "parts"),
     ("reports", "plotting", "exporters", "page", "validation", "course", "sheets"),
+    ("plausibility",),
     ("file_check",),
     ("importers",),
     ("cli", "server", "assistants", "__main__"),

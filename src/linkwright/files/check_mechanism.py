@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from functools import partial
 
@@ -17,6 +18,7 @@ from linkwright.mechanism.wheels_and_cams import disc_radii
 from linkwright.units import number
 from linkwright.words import _
 
+_NAME = re.compile(r"[^\W\d]\w*")
 #: Points of a link of which all pairs are measured.
 MOST_PAIRED = 32
 #: Angles of guides, as a file rounds them, that agree within this (rad).
@@ -47,8 +49,9 @@ def _all_read(reader: Reader, root: MappingNode, mechanism: Mechanism) -> bool:
 
 
 def _unused_parameters(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
+    expected = _NAME.findall(str(dict(mechanism.expect))) if mechanism.expect else ()
     for name in mechanism.parameters:
-        if name not in reader.used:
+        if name not in reader.used and name not in expected:
             reader.finding(
                 below(root, "parameters", name),
                 f"parameters.{name}",
@@ -228,7 +231,7 @@ def _unreported(*_: object, **__: object) -> None:
 
 def _missing_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) -> None:
     """Links that turn and have a mass, but no word about their moment of inertia, which then counts as zero."""
-    sliding = _sliding(mechanism)
+    sliding = links_that_slide(mechanism)
     for name, link in mechanism.links.items() if mechanism.drivers else ():
         if len(link.points) == 1 and reader.error_count:  # perhaps a block whose guide is not named
             continue
@@ -270,7 +273,7 @@ def _assumed_centres(reader: Reader, root: MappingNode, mechanism: Mechanism) ->
             reader.error(at, f"links.{name}.mass_centre", message, remedy, "no-mass-centre", severity="warning")
 
 
-def _sliding(mechanism: Mechanism) -> set[str]:
+def links_that_slide(mechanism: Mechanism) -> set[str]:
     """The frame and the links that cannot turn, since guides and welds tie them to it."""
     sliding, grown = {"frame"}, True
     while grown:
@@ -284,7 +287,7 @@ def _phases_of_no_motion(reader: Reader, root: MappingNode, mechanism: Mechanism
     """Loads that act by the angle of a link that only slides: it never reverses, so that a stroke of it is an error;
     while it moves is never, which is odd.
     """
-    sliding = _sliding(mechanism)
+    sliding = links_that_slide(mechanism)
     for name, load in mechanism.loads.items():
         outputs = load.magnitude.phase.outputs
         output = next((each for each in outputs if each.kind == "angle" and each.owner in sliding), None)

@@ -208,6 +208,41 @@ def _from_drawing(mechanism: Mechanism, structure: Structure, assembly: Assembly
                 break
 
 
+@dataclass(frozen=True)
+class DrawnGap:
+    """How far the drawn points of a group are, at most, from where it is put together, m: in the mode that is
+    ``taken``, and in the ``other`` one; infinite where it cannot be put together so, or has no other."""
+
+    group: Group
+    taken: float
+    other: float
+
+
+def drawn_gaps(mechanism: Mechanism, structure: Structure) -> list[DrawnGap]:
+    """How well the drawing shows the machine that is put together, by group; raises as :func:`assemble`."""
+    if mechanism.path is not None:
+        mechanism = mechanism.posed
+    assembly = assemble(mechanism, structure)
+    if not assembly.drawing:
+        return []
+    groups = [group for group in structure.groups if group.unknowns]
+    modal = modal_groups(structure)
+    probe = _Probe(trace_motion(mechanism, structure, rates=False, iterations=8), groups, assembly.drawing)
+    found = []
+    for group in groups:
+        goals = probe.goals[group.name]
+        own = assembly.modes.get(group.name, 1.0)
+        for inputs in _nearby(mechanism, assembly.inputs) if goals else ():
+            distances = [
+                probe.farthest(group, {**assembly.modes, group.name: sign}, assembly.states, inputs)
+                for sign in ((own, -own) if group.name in modal else (own,))
+            ]
+            if min(distances) < math.inf:
+                found.append(DrawnGap(group, distances[0], (*distances, math.inf)[1]))
+                break
+    return found
+
+
 def _nearby(mechanism: Mechanism, inputs: Mapping[str, float]) -> Iterator[Mapping[str, float]]:
     """The drivers' coordinates in the drawing, then some near them, where these are out of reach."""
     yield inputs
@@ -249,15 +284,28 @@ class _Probe:
         self, group: Group, modes: dict[str, float], states: dict[str, float], inputs: Mapping[str, float]
     ) -> float:
         """The squared distance of a group's points, m²."""
+        gap = sum(off * off for off in self.offsets(group, modes, states, inputs))
+        return gap if gap == gap else math.inf
+
+    def farthest(
+        self, group: Group, modes: dict[str, float], states: dict[str, float], inputs: Mapping[str, float]
+    ) -> float:
+        """The largest distance of a point of a group from where it is drawn, m; infinite where it is out of reach."""
+        offsets = self.offsets(group, modes, states, inputs)
+        gap = max(map(math.hypot, offsets[::2], offsets[1::2])) if sum(offsets) == sum(offsets) else math.nan
+        return gap if gap == gap else math.inf
+
+    def offsets(
+        self, group: Group, modes: dict[str, float], states: dict[str, float], inputs: Mapping[str, float]
+    ) -> list[float]:
+        """By how much the coordinates of a group's points differ from those that are drawn, m."""
         values = self._values(modes, inputs)
         outputs = self.steps.step(
             [values[name] for name in self.program.parameters],
             [values[name] for name in self.program.positions],
             [states[name] for name in self.program.fields],
         )
-        goals = self.goals[group.name].items()
-        gap = sum((outputs[self.places[name]] - goal) ** 2 for name, goal in goals)
-        return gap if gap == gap else math.inf
+        return [outputs[self.places[name]] - goal for name, goal in self.goals[group.name].items()]
 
     def _values(self, modes: dict[str, float], inputs: Mapping[str, float]) -> dict[str, float]:
         values = dict(self.motion.mechanism.dimensions())
