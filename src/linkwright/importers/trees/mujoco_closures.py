@@ -77,24 +77,32 @@ class Closures:
     # -- loops that are written as curves
 
     def _closed_by_curves(self) -> set[int]:
-        """Couplings of higher order in the loop of an inactive ``connect`` or ``weld``, which replaces them."""
-        kinds = self.read.mujoco.mjtEq
-        curves = [index for index in self.active if self._curved(index)]
-        if not curves:
-            return set()
-        idle = [
-            index
-            for index in range(self.model.neq)
-            if index not in self.active and is_one_of(self.model.eq_type[index], kinds.mjEQ_CONNECT, kinds.mjEQ_WELD)
-        ]
+        """Couplings that close the loop of an inactive constraint, which replaces them: those of higher order, and
+        those which Linkwright's own files name after their two joints."""
+        closing = [index for index in self.active if self._curved(index) or self._named_by_joints(index)]
         replaced: set[int] = set()
-        for index in idle:
+        for index in range(self.model.neq) if closing else ():
+            if index in self.active:
+                continue
             loop = self._loop(index)
             driven = {each for each in self.active if self._couples(each) and int(self.model.eq_obj1id[each]) in loop}
-            if any(each in curves for each in driven):
-                replaced |= driven
+            if any(each in closing for each in driven):
+                replaced |= driven if len(driven) == self._conditions(index) else driven & set(closing)
                 self.active.append(index)
         return replaced
+
+    def _named_by_joints(self, index: int) -> bool:
+        joints = int(self.model.eq_obj1id[index]), int(self.model.eq_obj2id[index])
+        if not self._couples(index) or min(joints) < 0:
+            return False
+        first, second = (self.read.joint_names[each] for each in joints)
+        return self.name(index) == f"{first}({second})"
+
+    def _conditions(self, index: int) -> int:
+        """How many coordinates a constraint takes from a planar machine."""
+        kinds = self.read.mujoco.mjtEq
+        dimensions = {int(kinds.mjEQ_CONNECT): 2, int(kinds.mjEQ_WELD): 3}
+        return dimensions.get(int(self.model.eq_type[index]), 1)
 
     def _couples(self, index: int) -> bool:
         return bool(self.model.eq_type[index] == self.read.mujoco.mjtEq.mjEQ_JOINT)
@@ -104,7 +112,10 @@ class Closures:
         return self._couples(index) and bool(np.any(np.abs(factors[2:]) > LINEAR * max(1.0, abs(factors[1]))))
 
     def _loop(self, index: int) -> set[int]:
-        """The joints between two bodies that a constraint holds together."""
+        """The joints between two bodies that a constraint holds together, or those that it couples."""
+        kinds = self.read.mujoco.mjtEq
+        if not is_one_of(self.model.eq_type[index], kinds.mjEQ_CONNECT, kinds.mjEQ_WELD):
+            return self._coupled(index)
         chains = []
         for body in self._bodies(index):
             chain: set[int] = set()
@@ -113,6 +124,14 @@ class Closures:
                 body = int(self.model.body_parentid[body])
             chains.append(chain)
         return chains[0] ^ chains[1]
+
+    def _coupled(self, index: int) -> set[int]:
+        """The joints of a coupling, or of the tendons that it ties."""
+        ids = [each for each in (int(self.model.eq_obj1id[index]), int(self.model.eq_obj2id[index])) if each >= 0]
+        if self._couples(index):
+            return set(ids)
+        names = [name for each in ids for name in self.fixed_factors(each) or ()]
+        return {self.read.joint_names.index(each) for each in names}
 
     # -- pins and welds
 
