@@ -42,7 +42,9 @@ class Writer:
     def __init__(self, layout: Layout) -> None:
         self.layout = layout
         self.factor = UNITS[layout.unit][0]
-        self.size = max((math.hypot(*each) for body in layout.all for each in body.places.values()), default=1.0)
+        self.size = (
+            max((math.hypot(*each) for body in layout.all for each in body.places.values()), default=1.0) or 1.0
+        )
         self.tolerance = max(layout.precision, ROUNDING * self.size)
         self.drawn = layout.drawing()
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -42,7 +40,6 @@ class Rack:
     rack: str
     through: Point
     centre: Point
-    direction: complex
     radius: float
     #: What the row misses at the start as an angle of the pinion, rad.
     off: float
@@ -176,7 +173,7 @@ class Rows:
                 place = self.made.start(carrier, centre.places[carrier]) - radius * 1j * direction
                 through = self._pitch_point(row, rack, place, pinions[0])
                 off = row.off / row.turns[pinions[0]]
-                return Rack(row, pinions[0], rack, through, centre, direction, radius, off)
+                return Rack(row, pinions[0], rack, through, centre, radius, off)
         return None
 
     def _slid(self, row: Row) -> list[str]:
@@ -221,12 +218,10 @@ class Rows:
 
     def _rack(self, found: Rack, writer: Writer) -> Wheels:
         pinion, rack = self.made.bodies[found.pinion], self.made.bodies[found.rack]
-        direction = math.remainder(cmath.phase(found.direction) - writer.axis(rack), 2 * math.pi)
         values: Plain = {
             "pinion": pinion,
             "rack": rack,
             "through": self.made.named[id(found.through)],
-            "direction": self._angle(direction),
             "radius": writer.length(abs(found.radius)),
         }
         if found.off or not (self._directed(pinion) and self._directed(rack)):

@@ -148,7 +148,7 @@ class MujocoModel:
         for joint in joints:
             last = joint == joints[-1]
             child = name if last else f"{name}_{self.joint_names[joint]}"
-            tree.parts[child] = self._solid(body) if last else Part(child, centre=self._anchor(joint))
+            tree.parts[child] = self._solid(body) if last else Part(child, centre=self._anchor(joint), between=True)
             yield self._joint(joint, parent, child)
             parent = child
 

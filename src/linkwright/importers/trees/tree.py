@@ -13,7 +13,7 @@ class Part:
     """A body as it lies in the model's reference pose; places are complex numbers, m, in the plane.
 
     ``inertia``: about the mass ``centre``, kg·m². ``marks``: places that have a name. ``line``: in the file; 0:
-    unknown.
+    unknown. ``between``: it is put between others, and has no mass.
     """
 
     name: str
@@ -23,6 +23,7 @@ class Part:
     colour: str = ""
     marks: dict[str, complex] = field(default_factory=dict)
     line: int = 0
+    between: bool = False
 
 
 @dataclass

@@ -62,7 +62,8 @@ class TreeLayout:
             if group == WORLD or not members:
                 continue
             joined = {joint.child for joint in self._joints_of(group)}
-            chosen = max([each for each in members if each.name in joined] or members, key=lambda each: each.mass)
+            candidates = [each for each in members if each.name in joined] or members
+            chosen = max(candidates, key=lambda each: (not each.between, each.mass))
             colour = next((each.colour for each in (chosen, *members) if each.colour), "")
             name = free_name(chosen.name, self.made.bodies, "body")
             self.made.add(Body(name, colour=colour, key=chosen.name))
@@ -137,21 +138,17 @@ class TreeLayout:
             self.placed.groups.start[self.placed.group(each)].turn * self.placed.groups.inside[each].turn * direction
             for each in (joint.parent, joint.child)
         ]
-        if abs(lines[0] - lines[1]) > SAME:
-            message = _("at the start the block is turned on its guide: a weld of it is not closed there")
-            remedy = _("close the weld in the key frame, or take the model's own pose as the start")
-            self.placed.remarks.remark(
-                "warning", message, remedy, "import.weld_open", line=joint.line, key=joint.name
-            )
         name = free_name(joint.name, [each.name for each in self.made.slides], "guide")
-        return Slide(
-            name,
-            self.placed.bodies[guide],
-            self.placed.named[id(through)],
-            angle(lines[0]),
-            self.placed.bodies[block],
-            self.placed.named[id(at)],
-        )
+        ends = self.placed.bodies[guide], self.placed.bodies[block]
+        points = self.placed.named[id(through)], self.placed.named[id(at)]
+        made = Slide(name, ends[0], points[0], angle(lines[0]), ends[1], points[1])
+        away = self.placed.start(block, at.places[block]) - self.placed.start(guide, through.places[guide])
+        apart = abs((away * lines[0].conjugate()).imag)
+        if abs(lines[0] - lines[1]) > SAME or apart > self.placed.points.tolerance:
+            made.offset = 0.0
+            body = self.made.body(ends[1])
+            made.block_angle = angle(lines[1]) - body.axis if len(set(body.places.values())) > 1 else None
+        return made
 
     def slide_name(self, joint: str) -> str:
         """The name of the guide that a slide became."""
@@ -212,7 +209,8 @@ class TreeLayout:
         start, rotary = writer.coordinate(drive), drive.turn is not None
         if rotary and joint.high - joint.low > FULL_TURN:
             return
-        ends = sorted(sense * (limit - joint.moved) for limit in (joint.low, joint.high))
+        limits = (sense * (limit - joint.moved) for limit in (joint.low, joint.high))
+        ends = sorted(limits, reverse=(drive.speed or 0.0) < 0)
         write = [writer.angle_sum(start, each) if rotary else writer.length(start + each) for each in ends]
         self.made.cycle = {"from": write[0], "to": write[1]}
 
