@@ -80,11 +80,15 @@ def _document(content: bytes) -> Any:
         return readfile(path)
 
 
-def _flat(space: Any, remarks: Remarks, depth: int) -> Iterator[Entity]:
-    """Entities, those of blocks where they are inserted; a remark about each kind that says nothing here."""
+def _flat(space: Any, remarks: Remarks, depth: int, inserted_on: str = "0") -> Iterator[Entity]:
+    """Entities, those of blocks where they are inserted; a remark about each kind that says nothing here.
+
+    What lies on layer 0 of a block takes the layer on which the block is inserted.
+    """
     unread: dict[str, list[str]] = {}
     for each in space:
         kind, layer = each.dxftype(), each.dxf.get("layer", "0")
+        layer = inserted_on if layer == "0" else layer
         key = f"{kind} #{each.dxf.get('handle') or '?'}, {layer}"
         if kind == "INSERT" and depth < DEPTH:
             sizes = {abs(each.dxf.get(f"{axis}scale", 1.0)) for axis in "xy"}
@@ -92,7 +96,7 @@ def _flat(space: Any, remarks: Remarks, depth: int) -> Iterator[Entity]:
                 message = _("the block {name} is inserted with different scales in x and y", name=each.dxf.name)
                 remedy = _("its circles are read by their centres only")
                 remarks.remark("warning", message, remedy, "import.dxf.scaled", key=key)
-            yield from _flat(each.virtual_entities(), remarks, depth + 1)
+            yield from _flat(each.virtual_entities(), remarks, depth + 1, layer)
             continue
         found = _entity(each, kind, layer, key)
         if found is None:

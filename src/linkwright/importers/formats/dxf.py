@@ -158,7 +158,7 @@ class Skeleton:
 
     def guide(self, name: str, each: Entity) -> None:
         """A guide line of the frame or of a link, and the block on it: that of a BLOCK layer, or a pin in a slot."""
-        carrier = FRAME if not name or name.lower() == FRAME else name
+        carrier = name or FRAME
         if carrier != FRAME and carrier not in self.layout.bodies:
             message = _("the guide belongs to {name}, and there is no layer LINK_{name}", name=name)
             self.remark("error", message, _("name the link that carries it"), "import.dxf.no_carrier", key=each.key)
@@ -326,7 +326,10 @@ def role(layer: str) -> tuple[str, str]:
     found = _ROLE.fullmatch(layer.strip())
     if found is None or (found[1].lower() in ("link", "block") and not found[2]):
         return "", layer
-    return found[1].lower(), free_name(found[2] or "", (), "link") if found[2] else ""
+    kind, name = found[1].lower(), (found[2] or "").strip()
+    if not name or (kind == "guide" and name.lower() == FRAME):
+        return kind, ""
+    return kind, free_name(name, (), "link")
 
 
 def _length(body: Body) -> float:
