@@ -206,7 +206,8 @@ Record = tuple[list[str], str, Place, float, bool]
 def _machine(records: list[Record], speed: list[float]) -> Reading:
     found = Reading(rates=speed)
     for bodies, kind, place, angle, _driven in records:
-        found.joints.append((bodies, place))
+        if kind != "G":
+            found.joints.append((bodies, place))
         if kind == "R":
             for other in bodies[1:]:
                 found.machine.pin(bodies[0], other, place)

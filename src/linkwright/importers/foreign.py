@@ -173,7 +173,7 @@ def _source(source: str | Path) -> ForeignText:
 def _is_text(source: str) -> bool:
     """Whether a string is a text or a link, and no name of a file."""
     begins = source.lstrip().startswith(("<", "{", "gallery:"))
-    return begins or "\n" in source or "://" in source or len(source) > 1000
+    return begins or any(each in source for each in ("\n", "://", "|")) or len(source) > 1000
 
 
 def _format_of(source: ForeignText) -> str:
