@@ -154,7 +154,8 @@ def read_link(address: str) -> Reading:
         found.machine.slide(guide, body, at[pin], angle, through)
         found.machine.parallel(body, guide)
         if bits & DRIVEN:
-            own = number_of(record[8]) if len(record) > 8 else number_of(records[1].split(",")[1])
+            sense = -1 if flags & CLOCKWISE else 1  # of what has no speed of its own, a slide's as well
+            own = number_of(record[8]) if len(record) > 8 else sense * number_of(records[1].split(",")[1])
             found.rates.append(own * unit)
             found.machine.move(guide, body, at[pin], angle, lambda t, v=own * unit: v * t)  # type: ignore[misc]
     return found
@@ -168,7 +169,7 @@ GROUNDS = {"0", "gnd", "grnd", "grond", "gound", "groud"}
 def read_text(text: str) -> Reading:
     """The reading of a text of PMKS, in mm; ``rates``: its speed in rad/s where it says one."""
     if "mech=" in text:
-        settings, _unused, mechanism = unquote(text).partition("?")[2].partition("mech=")
+        settings, _unused, mechanism = unquote(text).rpartition("?")[2].partition("mech=")
         speeds = re.findall(r"\bs=?(-?[\d.]+)", settings)
         text = "\n".join([*(f"s={each}" for each in speeds), mechanism])
     records, speed = [], []

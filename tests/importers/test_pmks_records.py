@@ -96,12 +96,12 @@ def drive(machine: lw.Mechanism) -> tuple[float, bool]:
     return speed, driver.law.rotary
 
 
-def compare(found: lw.Foreign, other: Reading) -> None:
-    """Places of all joints of both over a motion from the start, as far as the driver is moved by both."""
+def compare(found: lw.Foreign, other: Reading, share: float = 1.0) -> None:
+    """Places of all joints over a turn of the driver from the start, or a share of it, or over 20 mm."""
     machine = lw.loads("\n".join(line for line in found.text.splitlines() if not line.startswith("cycle")))
     speed, rotary = drive(machine)
     asked = other.rates[0] if other.rates else 1.0
-    ways = np.linspace(0.0, 2 * math.pi if rotary else 0.02, 9)
+    ways = np.linspace(0.0, share * (2 * math.pi if rotary else 0.02), 9)
     sense = math.copysign(1.0, speed)
     if other.rates:
         assert speed == pytest.approx(asked, rel=1e-9)
