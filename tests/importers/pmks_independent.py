@@ -170,7 +170,7 @@ def read_text(text: str) -> Reading:
     """The reading of a text of PMKS, in mm; ``rates``: its speed in rad/s where it says one."""
     if "mech=" in text:
         settings, _unused, mechanism = unquote(text).rpartition("?")[2].partition("mech=")
-        speeds = re.findall(r"\bs=?(-?[\d.]+)", settings)
+        speeds = re.findall(r"\bs=?(-?[\d.]+)", settings.replace("set=", ""))
         text = "\n".join([*(f"s={each}" for each in speeds), mechanism])
     records, speed = [], []
     for line in re.split(r"[\n|]", text):
@@ -183,6 +183,7 @@ def read_text(text: str) -> Reading:
         names, (x, y, *rest) = words[: kinds[-1]], words[kinds[-1] + 1 :]
         numbers = [each for each in rest if re.fullmatch(r"[-+]?[\d.]+", each)]
         flags = next((each for each in rest if re.fullmatch(r"[-+tf]+", each, re.I)), "")
+        flags = flags or "".join(each[0] for each in rest if each.lower() in ("true", "false"))
         angle = math.radians(float(numbers[0])) if numbers else 0.0
         bodies = [FRAME if each.lower() in GROUNDS or each.lower().startswith("ground") else each for each in names]
         driven = len(flags) > 3 and flags[3] in "tT+"
@@ -233,12 +234,16 @@ def _machine(records: list[Record], speed: list[float]) -> Reading:
 
 
 def _gear(found: Reading, records: list[Record], bodies: list[str], contact: Place) -> None:
-    """Wheels by their contact: radii from the pins that a third body holds of both."""
-    pins = {name: [(each[0], each[2]) for each in records if each[1] == "R" and name in each[0]] for name in bodies}
-    for one, a in pins[bodies[0]]:
-        for other, b in pins[bodies[1]]:
-            for carrier in set(one) & set(other) - set(bodies):
+    """Wheels by their contact: radii from their pins, on a third body that has pins at both places."""
+    pins = [(set(each[0]), each[2]) for each in records if each[1] == "R" and len(each[0]) > 1]
+    centres = [[place for names, place in pins if name in names] for name in bodies]
+    others = {name for names, _place in pins for name in names} - (set(bodies) - {FRAME})
+    for carrier in sorted(others, key=lambda name: name != FRAME):
+        there = [place for names, place in pins if carrier in names]
+        for a in (each for each in centres[0] if each in there):
+            for b in (each for each in centres[1] if each in there and each != a):
                 inside = (a[0] - contact[0]) * (b[0] - contact[0]) + (a[1] - contact[1]) * (b[1] - contact[1]) > 0
                 ratio = math.dist(a, contact) / math.dist(b, contact)
-                found.machine.coupled(bodies[0], bodies[1], carrier, ratio if inside else -ratio)
-                return
+                if carrier not in bodies:
+                    found.machine.coupled(bodies[0], bodies[1], carrier, ratio if inside else -ratio)
+                    return

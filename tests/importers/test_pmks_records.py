@@ -80,8 +80,24 @@ arm planet R 60 0
 ground planet G 40 0
 planet R 60 15 tfff
 """,
+    "gears on an arm, wheels about its pivot": """ground arm R 0 0 ffft
+arm pair R 10 0
+pair ground G 44 0
+pair output G 46 0
+ground output R 0 0
+pair R -30 0
+output R 47 0
+""",
     "Stephenson with vertical bars": "ground a R 0 0 ffft|a b R 5 25|b c R 70 70|c ground R 90 0|"
     "b d R 40 95|d e R 120 110|e ground R 170 10",
+    "flags as words, settings in the first line": """set=s4|f5
+mech=
+ground,crank,R,0,0,True,False,false,True
+crank,rod,R,0,40
+rod,rocker,R,100,80,False,False,false
+rocker,ground,R,120,0
+rod,R,60,120,True,True,true
+""",
     "an old address": "http://designengrlab.github.io/PMKS/pmks.html?set=s5|f5&mech="
     "ground%20crank%20R%200%200%200%20ffft|crank%20rod%20R%200%2025|"
     "rod%20slide%20R%2080%2010|ground%20slide%20P%2080%2010%200",
@@ -173,6 +189,7 @@ def test_a_traced_point_is_traced() -> None:
 @pytest.mark.parametrize(
     "text",
     [
+        "ground\n|\n",
         "ground crank R 0 zero\ncrank rod R 0 30\n",
         "ground crank other P 0 0 0\ncrank rod R 0 30\n",
         "ground a R 0 0 ffft\na b R 0 30\nb c R 50 60\nc ground R 60 0\na c R 20 40\n",

@@ -16,7 +16,7 @@ KINDS = ("R", "P", "RP", "G")
 #: Names of the fixed link; so is all that begins with the last one.
 GROUND = ("0", "gnd", "grnd", "grond", "gound", "groud", "ground")
 _FLAGS = re.compile(r"[tfTF+-]{1,4}")
-_SETTING = re.compile(r"(name|s|d|e|f)\s*=\s*(.*)", re.IGNORECASE)
+_SETTING = re.compile(r"(name|set|s|d|e|f)\s*=\s*(.*)", re.IGNORECASE)
 _ADDRESS_SETTING = re.compile(r"([a-z])=?(-?[\d.]+)", re.IGNORECASE)
 #: Angles beyond this are no radians folded to a quarter turn.
 QUARTER = 1.001 * math.pi / 2
@@ -66,6 +66,8 @@ def pmks_file(text: str, remarks: Remarks) -> PmksFile | None:
             continue
         joint.line, joint.column = line, column
         found.records.append(joint)
+    if not found.records and not remarks.failed:
+        _refuse(remarks, _("there is no joint in this text"), 1, 1)
     if found.driving is not None and 0 <= found.driving < len(found.records):
         found.records[found.driving].driven = True
     return None if remarks.failed else found
@@ -83,7 +85,11 @@ def _records(text: str, found: PmksFile, remarks: Remarks) -> Iterator[tuple[int
         for part in line.split("|"):
             setting = _SETTING.fullmatch(part.strip())
             record = re.sub(r"^\s*mech\s*=", "", part)
-            if setting:
+            if setting and setting[1].lower() == "set":
+                _set_all(found, setting[2])
+            elif _ADDRESS_SETTING.fullmatch(part.strip()):
+                _set_all(found, part)
+            elif setting:
                 _set(found, setting[1].lower(), setting[2].strip())
             elif record.strip(" ,\t"):
                 yield number, start + 1 + len(part) - len(part.lstrip()), record
@@ -96,15 +102,20 @@ def _records(text: str, found: PmksFile, remarks: Remarks) -> Iterator[tuple[int
 
 def _address(line: str, found: PmksFile) -> tuple[str, int]:
     """The records of an address, and the column before them."""
-    query = line.partition("?")[2]
+    query = line.partition("?")[2].replace('"', "")
     for part in query.split("&"):
         key, _equals, value = part.partition("=")
         if key == "set":
-            for letter, number in _ADDRESS_SETTING.findall(unquote(value)):
-                _set(found, letter.lower(), number)
+            _set_all(found, unquote(value))
         elif key == "mech":
             return unquote(value), line.find(value)
     return "", 0
+
+
+def _set_all(found: PmksFile, text: str) -> None:
+    """Settings one after another, as s5|f5."""
+    for letter, number in _ADDRESS_SETTING.findall(text):
+        _set(found, letter.lower(), number)
 
 
 def _set(found: PmksFile, key: str, value: str) -> None:
@@ -131,6 +142,8 @@ def _joint(text: str) -> Record | None:
     while rest and (number := _number(rest[0])) is not None:
         numbers.append(number)
         rest = rest[1:]
+    if len(rest) <= 4 and all(each.lower() in ("true", "false") for each in rest):  # as the oldest texts have them
+        rest = ["".join(each[0] for each in rest)][: len(rest)]
     if not 1 <= len(numbers) <= 3 or len(rest) > 1 or not all(map(_FLAGS.fullmatch, rest)):
         return None
     x, y, angle = [*numbers, 0.0, 0.0][:3]

@@ -110,6 +110,8 @@ class Machine:
         point, place = self.points[number], self.place(record)
         bodies = list(dict.fromkeys(self.bodies[each] for each in record.links))
         if len(bodies) == 1 or record.kind == "R":
+            if len(bodies) > 1:
+                point = self.points[number] = self.pin_at(place, bodies) or point
             for name in bodies:
                 self.made.body(name).places[point] = place
         elif len(bodies) > 2 and record.kind == "P":
@@ -121,6 +123,14 @@ class Machine:
             point = self.points[number]
         if record.shown or len(bodies) == 1:
             self.made.traced += [f"{each}.{point}" for each in bodies[:2] if each != FRAME][:1]
+
+    def pin_at(self, place: Vec, bodies: list[str]) -> str | None:
+        """The pin that one of the bodies has at a place already: all that is pinned there turns about it."""
+        for body in map(self.made.body, bodies):
+            for point, at in body.places.items():
+                if at == place and sum(point in each.places for each in self.made.all) > 1:
+                    return point
+        return None
 
     def guide(self, number: int, record: Record, bodies: list[str]) -> None:
         """The slot is in the first link, its pin or block on the second."""
