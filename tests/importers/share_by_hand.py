@@ -65,6 +65,10 @@ def by_hand(link: str, oldest: bool = False) -> ByHand:
     flags, decimals, integers, units, rest = text.split(".", 4)
     joint_part, rest = rest.split("..", 1)
     link_part, rest = rest.split("..", 1)
+    settings = {
+        "D": [value(each) for each in decimals.split(",")],
+        "I": [1000 * value(each) for each in integers.split(",")],
+    }
     tail = rest.split("N_.", 1)[1] if "N_." in rest else ""
     unit, clockwise = METRES[units[0]], VALUES[flags[-1]] & 1
     found, joints = ByHand(), {}
@@ -73,7 +77,10 @@ def by_hand(link: str, oldest: bool = False) -> ByHand:
         names.insert(1, names[0][1:]) if oldest else None
         joints[names[0][1:]] = (VALUES[names[0][0]], [value(each) for each in names[2:5]], names[5:8], names[8:9])
     for entry in tail.split(","):
-        if entry.startswith("PJ"):
+        if entry.startswith(("PD~", "PI~")):
+            _tag, place, number = entry.split("~")
+            settings[entry[1]][int(place)] = float(number)
+        elif entry.startswith("PJ"):
             owner, place, number = entry[2:].split("~")
             joints[owner][1][int(place)] = float(number)
     links = {}
@@ -88,8 +95,8 @@ def by_hand(link: str, oldest: bool = False) -> ByHand:
         holders = [body for body, (_block, own) in links.items() if name in own]
         found.body_at[name] = FRAME if bits & 4 and not bits & 1 else next(iter(holders), FRAME)
         own_speed = value(speed[0]) if speed else 0.0
-        turned = math.tau / 60 * (own_speed or (-1 if clockwise else 1) * 1000 * value(integers.split(",")[0]))
-        pushed = unit * (own_speed or (-1 if clockwise else 1) * value(decimals.split(",")[1])) if bits & 1 else 0.0
+        turned = math.tau / 60 * (own_speed or (-1 if clockwise else 1) * settings["I"][0])
+        pushed = unit * (own_speed or (-1 if clockwise else 1) * settings["D"][1]) if bits & 1 else 0.0
         if not bits & 1:
             pin(found, name, [FRAME] * (bits >> 2 & 1) + holders, bool(bits & 8), turned if bits & 2 else None)
             continue

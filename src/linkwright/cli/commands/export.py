@@ -23,6 +23,7 @@ NAMES = (
     "modelica",
     "parquet",
     "pdf",
+    "pmks_plus",
     "png",
     "python",
     "svg",
@@ -36,7 +37,7 @@ OPTIONS = (
 
 
 @command(
-    _("write results for other programs: Excel, CSV, Parquet, DXF, MuJoCo, Modelica, Linkage"),
+    _("write results for other programs: Excel, CSV, Parquet, DXF, MuJoCo, Modelica, Linkage, PMKS+"),
     _(
         """\
 Solves a mechanism over its cycle, with forces where it has masses or loads, and
@@ -46,7 +47,7 @@ writes the results to a file; the file's ending chooses the format.
   .xml            MuJoCo model (MJCF)              .mo     Modelica model
   .svg .png .pdf  kinematic drawing                .html   living page, works without a network
   .md             table of the metrics             .py     Python program that solves the machine
-  .linkage2       Linkage file of the motion"""
+  .linkage2       Linkage file of the motion       .pmksplus  share link of PMKS+"""
     ),
     _(
         """\
