@@ -76,6 +76,16 @@ def test_the_picture_is_as_wide_as_asked_for() -> None:
     assert found.data["svg"].startswith("<svg") and "lw-trace" in found.data["svg"]
 
 
+@pytest.mark.rotating
+def test_curves_are_a_second_picture() -> None:
+    found = call("draw_machine", model="gallery:jaw_crusher_sixbar", curves="torque", ghosts="limits", forces=True)
+    assert [base64.b64decode(each)[:4] for each in found.pictures] == [b"\x89PNG"] * 2
+    stuck = lw.read_document(CRANK_ROCKER).text.replace("length: 1 m", "length: 3.2 m")
+    partly = call("draw_machine", model=stuck, curves="sva")
+    assert not partly.failed and partly.pictures
+    assert {each["severity"] for each in partly.data["findings"]} >= {"warning"}
+
+
 def test_a_changed_length_keeps_comments_and_changes_the_stroke(tmp_path: Path) -> None:
     """The stroke of an inline slider-crank is twice its crank."""
     text = lw.read_document("gallery:slider_crank_inline").text
@@ -254,7 +264,6 @@ def test_files_of_other_programs_are_read_as_models(tmp_path: Path) -> None:
     assert xml.data["foreign_format"] == "linkage" and lw.loads(xml.data["text"]).links
     refused = call("get_metrics", tmp_path, model="four_bar.linkage2")
     assert refused.codes == ["assistants.foreign"] and "check_model" in refused.data["summary"]
-    assert call("check_model", tmp_path, model="{}").failed
     assert call("check_model", tmp_path, model="coordinates_off.json", foreign={"unit": "furlong"}).codes == [
         "import.no_unit"
     ]
@@ -263,3 +272,18 @@ def test_files_of_other_programs_are_read_as_models(tmp_path: Path) -> None:
 def test_a_model_of_ours_in_json_is_no_file_of_another_program() -> None:
     text = json.dumps({"format": 1, "name": "x", "frame": {"points": {"O": ["0 mm", "0 mm"]}}, "links": {}})
     assert call("check_model", model=text).data["foreign_format"] == ""
+
+
+def test_positions_of_several_drivers_and_limit_positions() -> None:
+    """At a limit of the rocker its velocity is zero; two sun wheels stand where they are set."""
+    found = call(
+        "solve_machine", model=CRANK_ROCKER, at="rocker min, rocker max", columns=["rocker.angular_velocity"]
+    )
+    assert found.column("rocker.angular_velocity") == pytest.approx([0.0, 0.0], abs=1e-7)
+    model = "gallery:planetary_two_inputs"
+    first, second = lw.load(model).drivers
+    asked = f"{first}=10 deg, 20 deg; {second}=-30 deg"
+    at = call("solve_machine", model=model, at=asked)
+    assert at.column(first) == pytest.approx([math.radians(10), math.radians(20)])
+    assert at.column(second) == pytest.approx([math.radians(-30)] * 2)
+    assert call("draw_machine", model=model, at=asked.replace(", 20 deg", "")).pictures

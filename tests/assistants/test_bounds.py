@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import sys
 from pathlib import Path
 
 import pytest
@@ -154,6 +155,7 @@ def test_what_cannot_be_done_is_a_finding(tmp_path: Path, tool: str, arguments: 
     assert all(each["code"] and each["message"] for each in found.data["findings"])
 
 
+@pytest.mark.rotating
 def test_answers_about_every_machine_of_the_gallery_are_short() -> None:
     """Not more than fits what an assistant reads at once."""
 
@@ -166,3 +168,33 @@ def test_answers_about_every_machine_of_the_gallery_are_short() -> None:
         return found
 
     assert asked(longest) < 30_000
+
+
+def test_what_tools_open_lies_in_the_folder_in_the_package_or_among_fonts(folder: Path, tmp_path: Path) -> None:
+    """Python's own record of opened files: none is written outside of the folder and the cache, and of what is next
+    to the folder nothing is read."""
+    opened: list[tuple[str, bool]] = []
+    listening = [True]
+
+    def heard(event: str, arguments: tuple[object, ...]) -> None:
+        if listening[0] and event == "open" and isinstance(arguments[0], str | bytes):
+            writes = any(sign in str(arguments[1] or "") for sign in "wax+") or bool(int(str(arguments[2])) & 3)
+            opened.append((os.fsdecode(arguments[0]), writes))
+
+    sys.addaudithook(heard)  # it stays, deaf
+    named = "report: {text: {task: '![x](../secret.svg) ![y](up/secret.svg)'}}"
+    text = f"{lw.read_document(CRANK_ROCKER).text}\n{named}\n"
+    try:
+        for name in ("own.yaml", "link.yaml", "../secret.yaml", text):
+            call("check_model", folder, model=name)
+            call("write_report", folder, model=name, file="r.html", sections=["task"], overwrite=True)
+        call("change_dimension", folder, model="own.yaml", changes={"crank.length": "0.8 m"}, save_as="new.yaml")
+        call("synthesize_machine", folder, task="free_curve", demands={"file": "../curve.csv"})
+    finally:
+        listening[0] = False
+    assert (folder / "new.yaml").exists() and any("new" in path or ".linkwright-" in path for path, _ in opened)
+    cache = os.environ["LINKWRIGHT_CACHE"]
+    for path, writes in opened:
+        place = Path(path).resolve()
+        assert not writes or place.is_relative_to(folder) or place.is_relative_to(cache) or path == os.devnull, path
+        assert place.is_relative_to(folder) or not place.is_relative_to(tmp_path), path

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 from linkwright.assistants.answers import FindingEntry, NextAction
 from linkwright.errors import Finding, LinkwrightError, ModelError
+from linkwright.words import _
 from linkwright.words.message import in_language
 
 #: Findings that are listed.
@@ -28,7 +29,10 @@ OF_MOTION = ("motion.", "outcome.", "cycle.", "range.")
 def entries(findings: Iterable[Finding], language: str = "en") -> list[FindingEntry]:
     """Findings with the call that helps with each, errors first, at most ``MOST``."""
     ordered = sorted(findings, key=lambda each: ORDER[each.severity])
-    return [entry(each, language) for each in ordered[:MOST]]
+    if len(ordered) > MOST:
+        message = _("{count} more findings are not listed", count=len(ordered) - MOST)
+        ordered = [*ordered[:MOST], Finding("note", "", "", message, "", "many")]
+    return [entry(each, language) for each in ordered]
 
 
 def of_error(error: LinkwrightError) -> list[Finding]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,8 +18,6 @@ from linkwright.registry import offered
 from linkwright.words import _
 from linkwright.words.characters import printable
 
-#: Bytes of a text that is taken.
-LARGEST = 1_000_000
 #: Files that are listed.
 LISTED = 100
 
@@ -58,8 +57,6 @@ class Folder:
         Raises RequestError for a file elsewhere, ModelError for one that is not there.
         """
         given = model.strip()
-        if len(model.encode()) > LARGEST:
-            raise RequestError(_("the text is larger than {most} bytes", code="model.large", most=LARGEST))
         if not given:
             raise RequestError(
                 _(
@@ -84,9 +81,10 @@ class Folder:
     def existing(self, name: str) -> Path:
         """The path of a file that is there; raises RequestError for one elsewhere, ModelError for one that is not."""
         path = self.file(name)
-        if not path.is_file():
-            raise ModelError([self._absent(name)])
-        return path
+        with suppress(OSError):  # a name that no file can have
+            if path.is_file():
+                return path
+        raise ModelError([self._absent(name)])
 
     def _absent(self, name: str) -> Finding:
         """That there is no such file, with the nearest one."""

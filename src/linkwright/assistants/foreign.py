@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -10,7 +9,7 @@ from linkwright.assistants.folder import Folder, Source, is_text
 from linkwright.core.expressions import parse_any
 from linkwright.errors import RequestError, about
 from linkwright.files.source import ENDINGS, GALLERY
-from linkwright.importers.foreign import READERS, Foreign, read_foreign
+from linkwright.importers.foreign import READERS, Foreign, ForeignText, is_own, read_foreign
 from linkwright.words import _
 
 #: What begins a text of another program, and what a share link has.
@@ -39,23 +38,21 @@ def model_of(read: Foreign) -> Source:
 def _is_foreign(folder: Folder, given: str) -> bool:
     """Whether a text or the name of a file is another program's."""
     if is_text(given):
-        return given.startswith(MARKUP) or (LINK in given and "\n" not in given) or _json_elsewhere(given)
-    endings = {ending for each in READERS.values() for ending in each.suffixes}
+        return _elsewhere(given)
     suffix = Path(given).suffix.lower()
-    if suffix == ".json":
-        return _json_elsewhere(folder.existing(given).read_text("utf-8", errors="replace"))
-    return suffix in endings and suffix not in ENDINGS
+    if suffix in ENDINGS[:2]:
+        return False
+    path, endings = folder.existing(given), {ending for each in READERS.values() for ending in each.suffixes}
+    return suffix in endings.difference(ENDINGS) or _elsewhere(path.read_text("utf-8", errors="replace"))
 
 
-def _json_elsewhere(text: str) -> bool:
-    """Whether a text is JSON and no model of ours, which says so with ``"format": 1``."""
-    if not text.lstrip().startswith(("{", "[")):
+def _elsewhere(text: str) -> bool:
+    """Whether a text is another program's."""
+    if is_own(text):
         return False
-    try:
-        found = json.loads(text)
-    except (ValueError, RecursionError):
-        return False
-    return not (isinstance(found, dict) and found.get("format") == 1)
+    link = LINK in text and "\n" not in text.strip()
+    source = ForeignText(text, "<text>")
+    return text.lstrip().startswith(MARKUP) or link or any(each.recognises(source) for each in READERS.values())
 
 
 def _speed(text: str) -> float | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import json
 import sys
 import traceback
 from collections.abc import Callable, Mapping
@@ -25,9 +26,11 @@ from linkwright.core import VERSION
 from linkwright.errors import Finding, LinkwrightError
 from linkwright.filesystem import confined
 from linkwright.registry import offered
-from linkwright.words import _
-from linkwright.words.message import in_language
+from linkwright.words import Message, _
+from linkwright.words.message import code_of, in_language
 
+#: Bytes of arguments that are taken.
+LARGEST = 1_000_000
 INSTRUCTIONS = """\
 Linkwright analyses and designs planar machines (linkages, gears, cams, sliders) from a short YAML file, the model.
 A model is given to every tool as its text, as a file in the server's folder, or as gallery:NAME.
@@ -85,9 +88,9 @@ class AssistantServer(MCPServer[Any]):
         tool = self.by_name.get(name)
         if tool is None:
             return await super().call_tool(name, arguments, context)
-        unknown = _unknown(tool, arguments)
-        if unknown:
-            return refused(tool, unknown, self.desk.language)
+        wrong = _too_large(arguments) or _unknown(tool, arguments)
+        if wrong:
+            return refused(tool, wrong, self.desk.language)
         try:
             return await super().call_tool(name, arguments, context)
         except ToolError as error:
@@ -160,6 +163,13 @@ def refused(tool: Tool, findings: list[Finding], language: str) -> CallToolResul
     return result(tool.answer(ok=False, summary=summary, findings=listed), failed=True)
 
 
+def _too_large(arguments: Mapping[str, Any]) -> list[Finding]:
+    """That arguments are larger than any model that a person writes."""
+    if len(json.dumps(arguments, ensure_ascii=False).encode()) <= LARGEST:
+        return []
+    return [_error("", _("the arguments are larger than {most} bytes", code="assistants.large", most=LARGEST))]
+
+
 def _unknown(tool: Tool, arguments: Mapping[str, Any]) -> list[Finding]:
     """Arguments that a tool does not have, with the nearest ones; the protocol would pass over them in silence."""
     known = [each.name for each in tool.parameters]
@@ -185,5 +195,5 @@ def _unfit(error: ValidationError) -> list[Finding]:
     ]
 
 
-def _error(key: str, message: str, remedy: str = "") -> Finding:
-    return Finding("error", "", key, message, remedy, "assistants.argument" if key else "assistants.unexpected")
+def _error(key: str, message: Message, remedy: str = "") -> Finding:
+    return Finding("error", "", key, message, remedy, code_of(message))

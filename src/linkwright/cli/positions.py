@@ -78,34 +78,36 @@ def joined(words: Sequence[str]) -> str:
     return ("; " if any("=" in word for word in words) else ", ").join(words)
 
 
-def inputs(text: str, mechanism: Mechanism) -> dict[str, list[float]]:
-    """Coordinates by driver of ``--at``: a list for the first driver, in which limit positions may stand, or
+def inputs(text: str, mechanism: Mechanism, option: str = "--at") -> dict[str, list[float]]:
+    """Coordinates by driver of an option: a list for the first driver, in which limit positions may stand, or
     ``NAME=list; NAME=list``; raises UsageError."""
     drivers = rotary(mechanism)
     if not drivers:
         raise UsageError(
             _(
                 "{name}: {cause}",
-                name="--at",
+                name=option,
                 cause=_("the model has no driver, so there is no input to set", code="solve.no_input"),
             )
         )
     if "=" not in text:
-        return {next(iter(drivers)): places(text, mechanism, mechanism.across, "--at")}
+        return {next(iter(drivers)): places(text, mechanism, mechanism.across, option)}
     found: dict[str, list[float]] = {}
     for part in text.split(";"):
         name, equals, values = part.rpartition("=")
         name = name.strip() if equals else next(iter(drivers))
         if name not in drivers:
             cause = did_you_mean(_('there is no driver "{name}"', code="solve.no_driver", name=name), name, drivers)
-            raise UsageError(_("{name}: {cause}", name="--at", cause=cause))
-        found[name] = quantities(values, "angle" if drivers[name] else "length", "--at")
+            raise UsageError(_("{name}: {cause}", name=option, cause=cause))
+        found[name] = quantities(values, "angle" if drivers[name] else "length", option)
     counts = {len(values) for values in found.values()} - {1}
     if len(counts) > 1:
         raise UsageError(
             _(
-                "--at: the drivers have lists of different lengths ({counts}); give as many values for each, or one",
+                "{option}: the drivers have lists of different lengths ({counts}); give as many values for each, "
+                "or one",
                 code="solve.uneven",
+                option=option,
                 counts=tuple(map(str, sorted(counts))),
             )
         )

@@ -170,6 +170,11 @@ def _source(source: str | Path) -> ForeignText:
     return ForeignText(text, path.name, path.absolute().parent, content)
 
 
+def is_own(text: str) -> bool:
+    """Whether a text begins as a model file of Linkwright does, or as the name of one in the gallery."""
+    return _OWN.match(text) is not None
+
+
 def _is_text(source: str) -> bool:
     """Whether a string is a text or a link, and no name of a file."""
     begins = source.lstrip().startswith(("<", "{", "gallery:"))
@@ -186,7 +191,7 @@ def _format_of(source: ForeignText) -> str:
     if len(fitting) == 1:
         return fitting[0]
     name = source.name
-    if _OWN.match(source.text) or suffix in ENDINGS[:2]:
+    if is_own(source.text) or suffix in ENDINGS[:2]:
         message = _("{name} is a model file of Linkwright, not of another program", code="import.own", name=name)
         raise RequestError(with_remedy(message, _("use it as it is, with any other command")))
     if fitting:

@@ -16,6 +16,7 @@ def test_the_example_has_no_findings() -> None:
     assert codes(EXAMPLE) == []
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("code", every(MENDS, least=30))
 def test_the_wrong_part_has_the_finding_and_the_right_one_has_none_that_hinders(code: str) -> None:
     mend = MENDS[code]

@@ -59,11 +59,12 @@ def change_dimension(
 ) -> ChangeAnswer:
     """Change dimensions or other single values of a model and get its new text, with comments and order as they were.
 
-    Use it in place of editing the text yourself wherever only values change: units are checked, points of a drawing
-    follow, and the new model is checked at once. It adds no links, joints or loads: write the text anew for that and
-    call check_model. To find good values use optimize_machine.
-    Comes back: the new text, each changed dimension before and after (SI), and the findings of check_model about the
-    new model. A file is written only where save_as names one in the folder, and only if the new model has no errors.
+    Use it in place of editing the text yourself wherever only values change. It adds no links, joints or loads: write
+    the text anew for that and call check_model. To find good values use optimize_machine.
+
+    All changes are made or none. Units are checked, points of a drawing follow, and the new model is checked at once.
+    A file is written only where save_as names one in the folder, and only if the new model has no errors. Comes back:
+    the new text, each changed dimension before and after (SI), the findings of check_model about the new model.
     """
     source = desk.source(model)
     target = desk.folder.target(save_as, overwrite=overwrite) if save_as else None

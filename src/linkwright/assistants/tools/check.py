@@ -68,15 +68,17 @@ def check_model(
     ] = {},
 ) -> CheckAnswer:
     """Find everything that is wrong with a model at once: syntax, keys, units, names, structure, assembly, whether it
-    passes its whole cycle of motion, and whether the demands of its section expect hold.
+    passes its whole cycle of motion, and whether the demands of its section expect hold. Also turns a file of
+    another program into a model.
 
-    Use it after every change of a model's text that you make yourself, and before other tools. It also reads a text,
-    a file or a share link of another program and gives the model that says the same. Do not use it for numbers:
-    solve_machine and get_metrics give those. It reads only; nothing is changed or written.
+    Use it after every change of a model's text that you make yourself, and before other tools. Do not use it for
+    numbers: solve_machine and get_metrics give those; for the meaning of a code, explain_finding.
 
-    Comes back: ok (no errors), the number of moving links, the mobility (degrees of freedom), the class of the
-    structure, each expectation with what was found, and all findings, each with code, place (file:line:column), key,
-    remedy and the call that helps next; of a foreign file also the model's text.
+    A model with errors is a result here, not a failed call. A text, a file or a share link of another program
+    (Linkage, PMKS+, OpenLinkage, pylinkage, MJCF, URDF, DXF) is recognised by itself; what it cannot say is a
+    finding. Nothing is fetched.
+    Comes back: ok, number of moving links, mobility (degrees of freedom), class of the structure, each expectation
+    with what was found, findings with code, place (file:line:column), key, remedy and the call that helps next.
     """
     elsewhere = read_elsewhere(desk.folder, model, {str(key): value for key, value in foreign.items()})
     source = model_of(elsewhere) if elsewhere is not None else desk.folder.source(model)

@@ -79,10 +79,12 @@ def compare_machines(
     """Compare two to six machines that do the same work: their design numbers side by side, a ranking and its
     reasons.
 
-    Use it to choose between alternatives, or to see what a change did. For one machine use get_metrics. The machines
-    need a link or guide of the same name, or 'output'. It reads only.
-    Comes back: numbers of every machine (SI), which is best in each, a ranking with scores, an evaluation in
-    sentences, and notes where unlike things are compared (other loads, other speeds).
+    Use it to choose between alternatives, or to see what a change did. For one machine use get_metrics. Each must
+    pass its whole cycle, and they need a link or guide of the same name, or 'output'.
+
+    A score is the weighted mean of how near a machine comes to the best in each number that has a better direction.
+    Comes back: numbers of every machine (SI), which is best in each, the ranking, an evaluation in sentences, and
+    notes where unlike things are compared (other loads, other speeds).
     """
     machines = [desk.source(each).mechanism()[0] for each in models]
     found = compare(machines, metrics=metrics or None, weights=weights or None, output=output or None)

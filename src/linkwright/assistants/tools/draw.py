@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 import base64
-from typing import Annotated
+from dataclasses import replace
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from linkwright.assistants.answers import Answer, NextAction
-from linkwright.assistants.failures import entries
+from linkwright.assistants.failures import entries, of_error
+from linkwright.assistants.positions import positions_at
 from linkwright.assistants.tool import Desk, Model
 from linkwright.core.arguments import DRAWING_STEPS
-from linkwright.errors import Finding, RequestError
-from linkwright.events.position_list import known_outputs, of_text
+from linkwright.errors import Finding, LinkwrightError, RequestError
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.plotting.diagrams.base import plot
 from linkwright.plotting.drawing.draw import draw
 from linkwright.words import _
 from linkwright.words.message import code_of, in_language
 
-#: Characters of SVG that are given.
-LONGEST = 120_000
+#: Characters of SVG that are given; dots per inch of curves.
+LONGEST, DOTS = 120_000, 100.0
 
 
 class DrawAnswer(Answer):
@@ -61,22 +63,37 @@ def draw_machine(
     dimensions: Annotated[
         bool, Field(description="true: dimension lines with lengths and angles of all links.")
     ] = False,
+    curves: Annotated[
+        Literal["none", "sva", "angles", "torque", "power", "reactions", "hodographs"],
+        Field(
+            description=(
+                "Curves over the cycle as a second picture. sva: place, velocity and acceleration of the output; "
+                "angles: of all links; torque, power: of the driver; reactions: joint forces; hodographs: of joint "
+                "forces."
+            )
+        ),
+    ] = "none",
     width: Annotated[int, Field(ge=200, le=1600, description="Width of the picture in pixels.")] = 800,
     svg: Annotated[bool, Field(description="true: the picture also as SVG text, for a file of your own.")] = False,
 ) -> DrawAnswer:
-    """Draw a machine in the standard symbols of the theory of machines, as a PNG picture in the answer.
+    """Draw a machine in the standard symbols of the theory of machines, as a PNG picture in the answer; with curves
+    over the cycle as a second picture.
 
     Use it to see whether a model is the machine that is meant: wrong branch, crossed links, a gap, paths of points,
-    limit positions. It also draws a model that does not pass its whole cycle, at a position that it reaches. Do not
-    read numbers off it: solve_machine gives them. It reads only; no file is written.
-    x points right, y up. Comes back: a PNG image, its width, notes on what was asked for and cannot be seen; SVG if
-    asked.
+    limit positions. Do not read numbers off it: solve_machine and get_metrics give them. For a document use
+    write_report.
+
+    It also draws a machine that does not pass its whole cycle, at a position that it reaches, with a warning. No file
+    is written. x points right, y up. Comes back: one or two PNG images, notes on what was asked for and cannot be
+    seen; SVG if asked.
     """
     mechanism, findings = desk.source(model).mechanism()
+    inputs, time = _place(mechanism, at)
     motion = solve_motion(mechanism, steps=DRAWING_STEPS, failures="mark")
     drawing = draw(
         motion,
-        time=_time(mechanism, at),
+        at=inputs,
+        time=time,
         overlay=ghosts or (),
         paths=paths,
         velocities=velocities,
@@ -91,6 +108,12 @@ def draw_machine(
     if not motion.complete and motion.ok.any():
         refusal = motion.refusal()
         findings.append(Finding("warning", "", "", refusal.sentence, "", refusal.code))
+    images = [drawing.png(width=width)]
+    if curves != "none":
+        try:
+            images.append(plot(mechanism, curves, language=desk.language).content(".png", dpi=DOTS))
+        except LinkwrightError as error:
+            findings += [replace(each, severity="warning") for each in of_error(error)]
     if svg and len(drawing.svg) > LONGEST:
         findings.append(
             Finding("warning", "", "svg", _("the SVG text is too long for an answer"), "", "assistants.long")
@@ -103,19 +126,17 @@ def draw_machine(
         width=width,
         svg=drawing.svg if svg and len(drawing.svg) <= LONGEST else "",
     )
-    found.pictures.append(base64.b64encode(drawing.png(width=width)).decode())
+    found.pictures.extend(base64.b64encode(each).decode() for each in images)
     return found
 
 
-def _time(mechanism: Mechanism, at: str) -> float | None:
-    """When the position is passed that is drawn, s; None for the first one."""
+def _place(mechanism: Mechanism, at: str) -> tuple[dict[str, float] | None, float | None]:
+    """The position that is drawn: inputs of several drivers, or a time, s; neither for the first one."""
     if not at.strip():
-        return None
-    if not mechanism.drivers:
-        raise RequestError(_("the model has no driver, so there is no input to set", code="solve.no_input"))
-    listed = of_text(at, (mechanism.across, "time"))
-    known_outputs(mechanism, listed)
-    motion = listed.solved(mechanism)
+        return None, None
+    motion = positions_at(mechanism, at)
     if motion.steps != 1:
         raise RequestError(_('"{text}" is more than one position; give one', code="draw.one_position", text=at))
-    return float(motion.time[0])
+    if "=" in at:
+        return {name: float(values[0]) for name, values in motion.inputs.items()}, None
+    return None, float(motion.time[0])

@@ -40,7 +40,9 @@ def explain_finding(
     """Explain a finding by its code: what it means, with a part of a model that has it and the same part mended.
 
     Use it where message and remedy of a finding do not suffice. The finding's own message names the place and the
-    values; this tool knows the code alone and reads no model.
+    values; this tool knows the code alone and reads no model. For the keys of a section use read_schema.
+
+    Codes are those in the findings of all tools; a code with a dot belongs to an area (motion., mobility., study.).
     Comes back: the meaning, a wrong and a right example where there is one, and the call that helps next.
     """
     mend, area = MENDS.get(code), code.partition(".")[0]

@@ -15,6 +15,8 @@ from linkwright.registry import nearest
 from linkwright.words import _
 from linkwright.words.message import in_language
 
+#: Models that are listed with their purposes, at most.
+WITH_PURPOSE = 30
 KINDS: tuple[Literal["mechanism", "calculation", "task"], ...] = ("mechanism", "calculation", "task")
 
 
@@ -26,7 +28,7 @@ class GalleryEntry(Answered):
         description="mechanism: a machine; calculation: of a machine part; task: of synthesis"
     )
     title: str = Field(description="what it is")
-    purpose: str = Field(description="what it is for")
+    purpose: str = Field(description="what it is for; empty in long lists")
 
 
 class GalleryAnswer(Answer):
@@ -59,8 +61,11 @@ def search_gallery(
     robots) and the model files in the folder, or get the text of one.
 
     Use it to find a machine to begin with, and to see how a model is written. For the rules of the form use
-    read_schema. It reads only.
-    Comes back: names with title and purpose, the folder's files, and the text of the model that 'name' asks for.
+    read_schema; to find dimensions for a task, synthesize_machine.
+
+    Words are compared with names, titles and purposes, all of them must occur. Comes back: names as other tools take
+    them with their titles, of 30 models at most with their purposes, the folder's files, or the text that 'name' asks
+    for.
     """
     wanted = words.lower().split()
     listed = [
@@ -74,6 +79,8 @@ def search_gallery(
         for each in found
         if all(word in _haystack(each) for word in wanted)
     ]
+    if len(listed) > WITH_PURPOSE:
+        listed = [each.model_copy(update={"purpose": ""}) for each in listed]
     text = _text(name)
     summary = _("the text of {name}", name=name) if text else _("{count} models fit", count=len(listed))
     first = (

@@ -55,15 +55,18 @@ def get_metrics(
         ),
     ] = [],
 ) -> MetricsAnswer:
-    """Compute the design numbers of a machine over its cycle: strokes, swing, transmission angle, quick-return ratio,
-    Grashof type, peak driving torque, peak joint reactions, power, shaking force.
+    """Compute the design numbers of one machine over its cycle: strokes, swing, transmission angle, quick-return
+    ratio, Grashof type, peak driving torque, peak joint reactions, power, shaking force.
 
     Use it to judge or rate one machine. For values at given positions use solve_machine; for several machines side by
-    side use compare_machines; to improve a number use optimize_machine. It reads only.
-    Values are SI (rad, m, N, N·m) with their unit, extremes are exact between positions; 'at' is the input where it
-    occurs.
-    Numbers about forces need masses or loads in the model.
-    Comes back: a list of numbers with unit, place, recommended limit and remark; warnings stand among the findings.
+    side compare_machines; to improve a number optimize_machine.
+
+    Values are SI (rad, m, N, N·m) with their unit; extremes are exact between positions, 'at' is the input where they
+    occur.
+    Numbers about forces need masses or loads in the model; those that do not apply are left out, named ones with a
+    note why.
+    Comes back: numbers with unit, place, recommended limit and remark; what is worse than its limit stands among the
+    findings.
     """
     for name in names:
         METRICS[name]

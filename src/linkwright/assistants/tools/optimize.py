@@ -98,12 +98,12 @@ def optimize_machine(
     """Vary dimensions of a machine within bounds to minimise or maximise design numbers while demands on others hold.
 
     Use it to improve a machine that check_model finds without errors. Where no machine is there yet, use
-    synthesize_machine; to set known values, change_dimension. Every design passes the full cycle in the assembly of
-    the start.
-    Takes seconds to minutes; progress is told and it can be cancelled.
-    Comes back: each dimension and number at the start and in the best design (SI), demands that cannot be met, the
-    model text with the best values, and of several objectives a front of designs. A file is written only where
-    save_as names one.
+    synthesize_machine; to set known values, change_dimension; to see how numbers are now, get_metrics.
+
+    Every design passes the full cycle in the assembly of the start. Takes seconds to minutes; progress is told and it
+    can be cancelled. A file is written only where save_as names one, and not where a demand is missed. Comes back:
+    each dimension and number at the start and in the best design (SI), demands that cannot be met together with the
+    nearest design, the model text with the best values, and of several objectives a front of designs.
     """
     source = desk.source(model)
     target = desk.folder.target(save_as, overwrite=overwrite) if save_as else None

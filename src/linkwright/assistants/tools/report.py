@@ -53,10 +53,12 @@ def write_report(
     """Write the full report of one machine into the folder, as PDF, HTML or Word: task, drawing, structure, one
     worked position, tables, curves, joint forces, driving torque, design numbers.
 
-    Use it at the end, for people to read. For numbers in the conversation use solve_machine and get_metrics. It takes
-    a few seconds and writes exactly one file; a file that exists is refused unless overwrite is true.
-    Comes back: the file's name and size, and the sections that had nothing to show. The report itself does not come
-    back.
+    Use it at the end, for people to read. For numbers in the conversation use solve_machine and get_metrics, for a
+    picture draw_machine.
+
+    Takes a few seconds and writes exactly one file; a file that exists is refused unless overwrite is true. The
+    model's section report sets title, author and own texts. Comes back: the file's name and size, and the sections
+    that had nothing to show; the report itself does not come back.
     """
     source = desk.source(model)
     target = desk.folder.target(file, ENDINGS, overwrite=overwrite)

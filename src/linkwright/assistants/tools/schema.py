@@ -65,10 +65,12 @@ def read_schema(
     example.
 
     Use it before you write a model, and where a finding names an unknown or missing key. For whole models to copy
-    from use search_gallery; the full schema (160 kB) is the resource linkwright://schema. It reads only.
-    Links join where they share a point's name (a pin). Every length, angle, mass, speed and force is a text with its
-    unit: "120 mm", "30 deg", "2 kg", "60 rpm". Angles are counter-clockwise positive.
-    Comes back: sections or kinds with one line each and their keys, and the JSON Schema of what is asked for.
+    from use search_gallery; the full schema (160 kB) is the resource linkwright://schema.
+
+    Links join where they share the name of a point: that is a pin. Every length, angle, mass, speed and force is a
+    text with its unit: "120 mm", "30 deg", "2 kg", "60 rpm". Comes back: without a section the list of all and a
+    whole example; with one its JSON Schema, or where there are kinds (joints, loads, driver) their names and keys,
+    and with a kind its schema.
     """
     properties: Schema = json_schema()["properties"]
     if not section:

@@ -11,11 +11,11 @@ from pydantic import Field
 
 from linkwright.assistants.answers import Answer, Answered, NextAction, numbers
 from linkwright.assistants.failures import entries, of_error
+from linkwright.assistants.positions import positions_at
 from linkwright.assistants.tool import Desk, Model
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.outputs import Output
 from linkwright.errors import Finding, LinkwrightError, RequestError
-from linkwright.events.position_list import known_outputs, of_text
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import of_forces, results_meant
 from linkwright.kinematics.solve import solve_motion
@@ -60,9 +60,10 @@ def solve_machine(
         str,
         Field(
             description=(
-                "Positions: inputs of the first driver or times, with units, as a list '0 deg, 45 deg', a range with"
-                " a step '0..90 deg:10 deg', times '0 s, 0.5 s', or limit positions of a link 'rocker min, rocker "
-                "max'. Empty (default): equal steps over the whole cycle."
+                "Positions: inputs of the first driver or times, with units, as a list '0 deg, 45 deg', a range "
+                "with a step '0..90 deg:10 deg', times '0 s, 0.5 s', or limit positions of a link 'rocker min, "
+                "rocker max'; of several drivers 'sun=10 deg, 20 deg; ring=30 deg'. Empty (default): equal steps "
+                "over the whole cycle."
             )
         ),
     ] = "",
@@ -84,15 +85,16 @@ def solve_machine(
     ] = False,
 ) -> SolveAnswer:
     """Solve positions, velocities, accelerations, joint forces and driver efforts of a machine at chosen inputs or
-    times.
+    times, as a short table.
 
-    Use it for values at given positions, and for curves over the cycle in a few steps. For extreme values over the
+    Use it for values at given positions, and for a course over the cycle in a few steps. For extreme values over the
     cycle (largest torque, smallest transmission angle, stroke) use get_metrics: it is exact between positions. For a
-    picture use draw_machine. It reads only.
+    picture use draw_machine.
+
     Units are SI (rad, m, s, N, N·m); angles, rates and moments are counter-clockwise positive; x to the right, y up.
-    A reaction is the force on the link that is named last. Forces need masses or loads in the model.
-    Comes back: a table of at most 60 positions and 40 columns, per position whether it is reached, and the names of
-    further columns.
+    A reaction is the force on the link that is named last. Forces need masses or loads in the model. A position that
+    is not reached has null values and a warning that says why. Comes back: at most 60 positions and 40 columns, and
+    the names of further columns.
     """
     mechanism, findings = desk.source(model).mechanism()
     motion, rows = _motion(mechanism, at, positions)
@@ -129,11 +131,7 @@ def _motion(mechanism: Mechanism, at: str, positions: int) -> tuple[Motion, Indi
         share = -(-FINE // positions)
         motion = solve_motion(mechanism, steps=positions * share, endpoint=True, failures="mark")
         return motion, np.arange(0, motion.steps, share)
-    if not mechanism.drivers:
-        raise RequestError(_("the model has no driver, so there is no input to set", code="solve.no_input"))
-    listed = of_text(at, (mechanism.across, "time"))
-    known_outputs(mechanism, listed)
-    motion = listed.solved(mechanism)
+    motion = positions_at(mechanism, at)
     if motion.steps > MOST_ROWS:
         raise RequestError(
             _(

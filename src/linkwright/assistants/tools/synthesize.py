@@ -96,12 +96,13 @@ def synthesize_machine(
     """Find the dimensions of a linkage from what it must do: a stroke, a swing with quick return, a path, poses, a
     function, a dwell, a straight line.
 
-    Use it where there is no machine yet. Where there is one whose numbers should become better, use optimize_machine.
-    Takes from a fraction of a second to a minute (free_curve: 'seconds' bounds it); progress is told and it can be
-    cancelled.
-    Comes back: candidates, best first (without defects before others, then by error), with type, error, defects,
-    smallest transmission angle and lengths (SI), and the model text of one of them, driven at 60 rpm. A file is
-    written only where save_as names one in the folder.
+    Use it where there is no machine yet. Where there is one whose numbers should become better, use optimize_machine;
+    for a ready machine of a known kind, search_gallery.
+
+    Takes from a fraction of a second to a minute ('seconds' bounds free_curve); progress is told and it can be
+    cancelled. A file is written only where save_as names one in the folder. Comes back: candidates, best first
+    (without defects before others, then by error), with type, error, defects, smallest transmission angle and lengths
+    (SI), and the model text of one of them, driven at 60 rpm.
     """
     target = desk.folder.target(save_as, overwrite=overwrite) if save_as else None
     name, asked = asked_in(_text(task, demands), "demands", str(desk.folder.path))
