@@ -180,7 +180,9 @@ def test_the_leg_by_parameters() -> None:
 
 
 def test_eleven_bars_of_the_leg_become_seven_links() -> None:
-    mechanism = lw.read_foreign(FILES / "jansen_leg.json").mechanism
+    foreign = lw.read_foreign(FILES / "jansen_leg.json")
+    mechanism = foreign.mechanism
+    assert codes(foreign).count(("note", "import.joined")) == 4
     assert len(mechanism.links) == 7
     assert sum(len(link.points) == 3 for link in mechanism.links.values()) == 2
 
@@ -190,6 +192,13 @@ def test_lengths_go_before_coordinates_and_are_written_as_given() -> None:
     assert "length: 25 mm" in foreign.text and "length: 68 mm" in foreign.text
     assert "also: {T1: [30 mm, -12 mm]}" in foreign.text  # y down in the file
     assert foreign.traced == ("L2.T1",)
+
+
+def test_a_bar_that_is_drawn_far_from_its_length_is_said() -> None:
+    bars = json.loads(project("four_bar_version_1"))["bars"]
+    bars[2]["length"] = 75
+    found = lw.read_foreign(project("four_bar_version_1", bars=bars))
+    assert ("warning", "import.length") in codes(found) and "length: 75 mm" in found.text
 
 
 def test_loads_are_turned_up_and_in_newtons() -> None:

@@ -25,6 +25,8 @@ MM = 1e-3
 USUAL_SPEED = 42 * DEGREE
 #: What lengths may be off in a file without a word, as a share of the machine's size.
 FITTING = 1e-9
+#: Share of a bar's length by which it is drawn longer or shorter than what a solver leaves.
+ASTRAY = 0.01
 
 
 @dataclass
@@ -97,6 +99,9 @@ class Designer:
         self.make_guides()
         self.make_dimensions()
         self.gone = join_rigid(self.layout)
+        for old, new in self.gone.items():
+            message = _("{old} and {new} cannot move against each other and are one link", old=old, new=new)
+            self.root.remark("note", message, "", "import.joined")
         self.make_drives()
         self.make_tracers()
         self.make_loads()
@@ -190,10 +195,17 @@ class Designer:
         driven = {id(stroke.bar): stroke for stroke in self.strokes}
         for bar in self.bars.values():
             drawn, stroke = math.dist(self.places[bar.a], self.places[bar.b]), driven.get(id(bar))
-            led = (
-                Distance(bar.a, bar.b, bar.length) if stroke is None else Distance(bar.a, bar.b, stroke.start, drawn)
-            )
-            constraints.append(led)
+            if stroke is not None:
+                constraints.append(Distance(bar.a, bar.b, stroke.start, drawn))
+                continue
+            constraints.append(Distance(bar.a, bar.b, bar.length))
+            if abs(drawn - bar.length) > ASTRAY * bar.length:
+                values = {"drawn": f"{drawn / MM:.6g}", "length": f"{bar.length / MM:.6g}"}
+                message = _(
+                    '"{key}" is drawn {drawn} mm long; its length of {length} mm is taken', key=bar.key, **values
+                )
+                remedy = _("solve it in OpenLinkage, and export it again")
+                bar.json.remark("warning", message, remedy, "import.length")
         for body in self.root.each("bodies"):
             constraints += [Distance(*pair) for pair in self.pairs(body)]
         constraints += [self.line(key) for key in self.joints if self.slides(key)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import logging
 import math
 import tempfile
 from collections.abc import Iterator, Sequence
@@ -50,6 +51,7 @@ def read_entities(content: bytes, remarks: Remarks) -> DrawingFile | None:
     Raises LinkwrightError where ezdxf is missing.
     """
     package("ezdxf", _("DXF drawings"))
+    logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # what it cannot copy is none of the reader's matter
     from ezdxf import colors
     from ezdxf.lldxf.const import DXFError
 

@@ -127,6 +127,9 @@ class Builder:
         self.make_bodies()
         self.make_guides()
         gone = join_rigid(self.layout)
+        for old, new in gone.items():
+            message = _("{old} and {new} cannot move against each other and are one link", old=old, new=new)
+            self.plan.root.remark("note", message, "", "import.joined")
         self.bodies = {member: gone.get(name, name) for member, name in self.bodies.items()}
         self.make_drives()
         self.say_unit()
@@ -325,7 +328,7 @@ class Builder:
         ways = [each for each in (high - driver.initial, low - high, driver.initial - low) if abs(each) > 1e-12]
         times, angles = [0.0], [0.0]
         for way in ways:
-            times.append(times[-1] + abs(way) / rate)
+            times.append(round(times[-1] + abs(way) / rate, 12))
             angles.append(angles[-1] + way)
         angles[-1] = 0.0
         drive.table = (times, angles, "linear")
