@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import importlib
 import inspect
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -31,12 +31,14 @@ class Format:
     ``content(results, **options)`` takes :class:`linkwright.exporters.results.Results` and keyword-only options;
     ``of_result(result, language)`` another result in tables, where the format can hold one. ``report(results,
     **options)``: how exact the file is, as the command prints it; options that ``content`` lacks are its own.
+    ``beside(results)``: files that belong to it, by the endings that replace its own.
     """
 
     suffixes: tuple[str, ...]
     content: Callable[..., bytes]
     of_result: Callable[[Tabular, str], bytes] | None = None
     report: Callable[..., Tabular] | None = None
+    beside: Callable[[Results], Mapping[str, bytes]] | None = None
 
 
 FORMATS: Registry[Format] = Registry(_("export format"), "linkwright.exporters.formats")
@@ -81,7 +83,7 @@ def export(
             ``json`` (its ``data()``), ``markdown``, ``html``.
         path: the file; its ending chooses the format.
         format: ``csv``, ``xlsx``, ``json``, ``markdown``, ``parquet``, ``dxf``, ``mjcf``, ``modelica``, ``linkage``,
-            ``pmks_plus``, ``python``, ``svg``, ``png``, ``pdf``, where the ending does not say it.
+            ``pmks_plus``, ``python``, ``urdf``, ``svg``, ``png``, ``pdf``, where the ending does not say it.
         force: replace a file that exists.
         steps: positions over the cycle, for a mechanism.
         language: ``en`` or ``zh``, of headings and drawings.
@@ -102,8 +104,19 @@ def export(
         content = content_of(result, chosen, language)
     else:
         check_options(chosen, FORMATS[chosen], options)
-        content = FORMATS[chosen].content(Results.of(result, steps, language), **options)
+        results = Results.of(result, steps, language)
+        content = FORMATS[chosen].content(results, **options)
+        _write_beside(FORMATS[chosen], results, target, force=force)
     return atomic_write(target, content, force=force)
+
+
+def _write_beside(form: Format, results: Results, target: Path, *, force: bool) -> None:
+    """Writes the files that belong to one, before it."""
+    if form.beside is not None:
+        for ending, content in form.beside(results).items():
+            path = target.with_name(target.stem + ending)
+            refuse_target(path, force=force)
+            atomic_write(path, content, force=force)
 
 
 def content_of(result: Tabular, name: str, language: str) -> bytes:

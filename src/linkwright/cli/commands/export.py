@@ -27,17 +27,30 @@ NAMES = (
     "png",
     "python",
     "svg",
+    "urdf",
     "xlsx",
 )
 #: Options of formats; one that a format lacks is refused with those that it has.
 OPTIONS = (
     *("degrees", "unit", "position", "paths", "curve", "dimensions", "labels", "accelerations", "form"),
-    *("name", "timestep", "loops", "closure", "simulate", "indent", "compression", "width", "size", "compared"),
+    *(
+        "name",
+        "timestep",
+        "loops",
+        "closure",
+        "simulate",
+        "loop_joints",
+        "indent",
+        "compression",
+        "width",
+        "size",
+        "compared",
+    ),
 )
 
 
 @command(
-    _("write results for other programs: Excel, CSV, Parquet, DXF, MuJoCo, Modelica, Linkage, PMKS+"),
+    _("write results for other programs: Excel, CSV, Parquet, DXF, MuJoCo, Modelica, URDF, Linkage, PMKS+"),
     _(
         """\
 Solves a mechanism over its cycle, with forces where it has masses or loads, and
@@ -47,7 +60,8 @@ writes the results to a file; the file's ending chooses the format.
   .xml            MuJoCo model (MJCF)              .mo     Modelica model
   .svg .png .pdf  kinematic drawing                .html   living page, works without a network
   .md             table of the metrics             .py     Python program that solves the machine
-  .linkage2       Linkage file of the motion       .pmksplus  share link of PMKS+"""
+  .linkage2       Linkage file of the motion       .pmksplus  share link of PMKS+
+  .urdf           URDF robot, with its loops in a file beside it"""
     ),
     _(
         """\
@@ -56,6 +70,7 @@ linkwright export crusher.yaml --at "0..-360deg:15" --output crusher.csv --degre
 linkwright export conveyor.yaml --output conveyor.dxf --unit mm --paths C rod.F
 linkwright export conveyor.yaml --output conveyor.xml         MuJoCo
 linkwright export conveyor.yaml --output conveyor.mo          Modelica
+linkwright export conveyor.yaml --output conveyor.urdf        URDF, and conveyor.loops.yaml
 linkwright export conveyor.yaml --to conveyor.html            living page
 linkwright export conveyor.yaml --to solution.py              Python program"""
     ),
@@ -101,6 +116,7 @@ linkwright export conveyor.yaml --to solution.py              Python program"""
     help=_("MuJoCo: largest gap that couplings of joints may leave (default: 0.01 mm)"),
 )
 @flag("--simulate", _("MuJoCo: run one cycle in MuJoCo and print by how much loops open"), default=None)
+@flag("--loop-joints", _("urdf: pins that close loops also in elements that Isaac Sim reads"), default=None)
 @option("--indent", "N", of=Integer(), help=_("spaces of indentation in JSON"))
 @option("--compression", "NAME", help=_("compression in Parquet"))
 @count("--width", help=_("width of PNG, pixels"))

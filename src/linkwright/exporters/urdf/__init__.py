@@ -1,0 +1,1 @@
+"""URDF robots: links in a tree, joints that mimic others, and what closes their loops beside them."""

@@ -1,0 +1,44 @@
+"""Machines of the gallery as files of robots and read back: all their points are where they were."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests import store
+
+import linkwright as lw
+
+#: Robots know no cams.
+NAMES = [name for name in store.names() if name != "printing_press"]
+STEPS = 24
+ENDINGS = (".xml", ".urdf")
+
+
+def deviation(name: str, ending: str, folder: Path) -> float:
+    """The largest distance, m, of a point from where it was; all points are read back."""
+    machine = store.machine(name)
+    motion = lw.solve_motion(machine, steps=STEPS, failures="mark")
+    path = folder / f"{name}{ending}"
+    lw.export(motion, path)
+    reread = lw.loads(lw.read_foreign(path).text)
+    times = motion.time[motion.ok] - motion.time[int(motion.ok.argmax())]
+    again = lw.solve_motion(reread, times=times)
+    worst = 0.0
+    for link, points in ((link, machine.links[link].points) for link in machine.links):
+        for point in points:
+            was, now = (each.point(f"{link}.{point}").position for each in (motion, again))
+            worst = max(worst, float(np.hypot(*(was[motion.ok] - now).T).max()))
+    return worst
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+@pytest.mark.parametrize("name", ["jaw_crusher_sixbar", "pinion_between_racks", "wedge"])
+def test_some_come_back(name: str, ending: str, tmp_path: Path) -> None:
+    assert deviation(name, ending, tmp_path) < 1e-9
+
+
+@pytest.mark.rotating
+@pytest.mark.parametrize("ending", ENDINGS)
+@pytest.mark.parametrize("name", NAMES)
+def test_every_machine_comes_back(name: str, ending: str, tmp_path: Path) -> None:
+    assert deviation(name, ending, tmp_path) < 1e-9
