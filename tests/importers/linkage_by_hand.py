@@ -90,6 +90,9 @@ def bodies_of(found: ByHand, links: list[ET.Element]) -> list[str]:
             if link.get(attribute):
                 owner = next(k for k, each in enumerate(links) if each.get("id") == link.get(attribute))
                 bodies[place] = bodies[owner]
+        anchor = found.connectors.get(link.get("fastenconnector", ""))
+        if anchor is not None and anchor.anchor:
+            bodies[place] = FRAME
     for link, body in zip(links, bodies, strict=True):
         for each in link.findall("connector") if link.get("actuator") != "true" else ():
             found.connectors[each.get("id", "")].bodies.append(body)
@@ -138,11 +141,11 @@ def actuator(found: ByHand, link: ET.Element) -> None:
     """A link of two connectors whose length goes to and fro at constant speed, longer first."""
     a, b = (found.connectors[each.get("id", "")] for each in link.findall("connector"))
     throw, cycles = float(link.get("throw", "0")) * METRE, float(link.get("cpm", "0"))
-    length, found.period = math.dist(a.place, b.place), 60 / abs(cycles)
-    gone = math.copysign(throw, cycles)
+    length, period = math.dist(a.place, b.place), 60 / abs(cycles)
+    gone, found.period = math.copysign(throw, cycles), max(found.period, period)
 
     def law(t: float) -> float:
-        part = t / found.period % 1
+        part = t / period % 1
         return length + gone * (2 * part if part <= 0.5 else 2 - 2 * part)
 
     found.machine.distance(a.on, a.place, b.on, b.place, law)

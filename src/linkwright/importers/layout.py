@@ -37,6 +37,11 @@ class Body:
     key: str = ""
 
     @property
+    def spread(self) -> bool:
+        """Whether its points are at more than one place, so that they show how it lies."""
+        return len(set(self.places.values())) > 1
+
+    @property
     def axis(self) -> float:
         """Angle (rad) of the x axis that its link will have: from the first point to the next at another place; 0
         where there is none."""

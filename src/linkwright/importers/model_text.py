@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 
 from linkwright.core.data import Plain
 from linkwright.files.write import flow, scalar
-from linkwright.importers.layout import FRAME, Body, Drive, Force, Layout, Slide
+from linkwright.importers.layout import FRAME, Body, Drive, Force, Layout, Slide, Wheels
 from linkwright.mechanism.link import Vec
 from linkwright.units import UNITS, number
 
@@ -140,7 +140,7 @@ class Writer:
         if name == FRAME:
             return 0.0
         body = self.layout.bodies[name]
-        if len(set(body.places.values())) == 1:
+        if not body.spread:
             line = next((each for each in self.layout.slides if each.block == name), None)
             return 0.0 if line is None else self.line(line)
         return body.axis
@@ -159,7 +159,20 @@ class Writer:
         for slide in self.layout.slides:
             yield slide.name, self.guide(slide)
         for each in self.layout.wheels:
-            yield each.name, {"kind": each.kind, **each.values}
+            yield each.name, {"kind": each.kind, **each.values, **self.phase(each)}
+
+    def phase(self, wheels: Wheels) -> Plain:
+        """The phase of two wheels of which one has its centre only, so that the drawing does not show how it lies."""
+        values = wheels.values
+        links = values.get("links", [])
+        if "phase" in values or all(name == FRAME or self.layout.body(name).spread for name in links):
+            return {}
+        first, second = values.get("teeth") or [float(each.split()[0]) for each in values.get("radii", "11")]
+        opposed = wheels.kind in ("gear", "rolling") and values.get("mesh") != "internal"
+        ratio = values.get("ratio") or (-1 if opposed or values.get("run") == "crossed" else 1) * first / second
+        a, b, carrier = (self.axis(each) for each in (*links, values.get("carrier", FRAME)))
+        phase = math.remainder(b - carrier - ratio * (a - carrier), 2 * math.pi)
+        return {"phase": self.angle(phase, self.size)} if abs(phase) * self.size > self.tolerance else {}
 
     def guide(self, slide: Slide) -> Plain:
         """A prismatic joint; offset and the line's angle in the block follow from where things lie."""

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.importers.layout import Body, Drive, Force, Layout, Slide, free_name
+from linkwright.importers.layout import Body, Drive, Force, Layout, Slide, Wheels, free_name
 from linkwright.importers.model_text import model_text, shortest
 
 
@@ -46,6 +46,22 @@ def test_a_body_that_disagrees_keeps_its_own_dimensions() -> None:
     assert np.hypot(*(motion.point("B").position[0] - motion.point("A").position[0])) == pytest.approx(
         math.dist((0.0, 0.03), (0.1, 0.01)), abs=2e-9
     )
+
+
+def test_a_wheel_of_its_centre_only_has_no_direction_but_its_partners_do() -> None:
+    layout = Layout()
+    layout.frame.places |= {"O": (0.0, 0.0), "Q": (0.06, 0.0)}
+    layout.add(Body("arm", {"O": (0.0, 0.0), "A": (0.03, 0.0), "B": (0.05, 0.02)}))
+    layout.add(Body("idler", {"A": (0.03, 0.0)}))
+    layout.add(Body("planet", {"B": (0.05, 0.02), "P": (0.05, 0.03)}))
+    sizes = {"carrier": "arm", "radii": ["10 mm", "10 mm"]}
+    layout.wheels.append(Wheels("one", "chain", {"links": ["frame", "idler"], **sizes}))
+    layout.wheels.append(Wheels("two", "gear", {"links": ["idler", "planet"], "carrier": "arm", "ratio": -2}))
+    layout.drives.append(Drive(turn="arm", about="O", speed=1.0))
+    motion = lw.solve_motion(lw.loads(model_text(layout)), times=[0.0, 0.5])
+    assert motion.point("P").position[0] == pytest.approx([0.05, 0.03], abs=1e-12)
+    b, p = motion.point("B").position[1], motion.point("P").position[1]
+    assert math.atan2(*(p - b)[::-1]) == pytest.approx(math.pi / 2 + 0.5 + 2 * 0.5, abs=1e-12)
 
 
 def test_short_numbers_and_names() -> None:
