@@ -41,7 +41,9 @@ MIX = ("load", "check", "solve", "metrics", "structure", "limits", "schema", "dr
 
 
 @pytest.mark.parametrize(
-    "tasks", [("load",) * 8, ("check",) * 8, ("solve",) * 8, MIX, MIX[::-1]], ids=lambda each: each[0]
+    "tasks",
+    [pytest.param((each,) * 8, marks=pytest.mark.rotating) for each in ("load", "check", "solve")] + [MIX, MIX[::-1]],
+    ids=lambda each: each[0],
 )
 def test_eight_threads_at_once(tasks: tuple[str, ...]) -> None:
     done = subprocess.run(

@@ -11,6 +11,7 @@ from tests.dynamics.release_problems import PROBLEMS, compare, ladder
 import linkwright as lw
 
 G = 9.81
+EXCAVATOR = pytest.param("excavator", marks=pytest.mark.rotating)
 BLOCK = """
 format: 1
 frame: {{points: {{O: [0 m, 0 m]}}}}
@@ -188,7 +189,7 @@ def test_a_structure_has_no_coordinate() -> None:
         lw.release(lw.load("gallery:two_bars_equilibrium"))
 
 
-@pytest.mark.parametrize("name", ["jaw_crusher_sixbar", "excavator", "geared_fivebar", "class_four_group"])
+@pytest.mark.parametrize("name", ["jaw_crusher_sixbar", EXCAVATOR, "geared_fivebar", "class_four_group"])
 def test_machines_of_the_gallery(name: str) -> None:
     mechanism = lw.load(f"gallery:{name}")
     first = next(iter(mechanism.drivers))

@@ -49,6 +49,7 @@ def test_every_file_of_the_gallery_is_there() -> None:
     assert len(files) > 20
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", sorted(tables("en")))
 def test_the_report_has_every_chapter_that_a_row_names(name: str) -> None:
     wanted = named(tables("en")[name])

@@ -11,6 +11,7 @@ import linkwright as lw
 TURN = np.linspace(0.0, 2.0 * np.pi, 2000, endpoint=False)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("number", [1000001, 1000004, 1000013, 1000039, 1000049, 1000107])
 def test_metrics_are_those_of_many_positions(number: int) -> None:
     found = verdict_of(number)
