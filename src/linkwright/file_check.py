@@ -11,7 +11,7 @@ from linkwright.actuators.cylinder import Cylinder
 from linkwright.core.arguments import STEPS
 from linkwright.core.attached import SECTIONS
 from linkwright.core.entry_points import loaded
-from linkwright.errors import Finding, LinkwrightError, ModelError
+from linkwright.errors import Finding, LinkwrightError, ModelError, Severity
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, below, located
 from linkwright.fields.reading import Place
@@ -344,7 +344,8 @@ def _turned(mechanism: Mechanism) -> tuple[list[Finding], list[Finding]]:
     if motion.complete:
         return [], [*_hardly_determined(motion), *notes]
     barred = motion.refusal()
-    return [Finding("error", "", "", barred.sentence, code=barred.code)], notes
+    severity: Severity = "note" if mechanism.expect.get("cycle") == "incomplete" else "error"
+    return [Finding(severity, "", "", barred.sentence, code=barred.code)], notes
 
 
 def _hardly_determined(motion: Motion) -> Iterator[Finding]:

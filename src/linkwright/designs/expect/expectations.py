@@ -16,7 +16,7 @@ from linkwright.core.arguments import require
 from linkwright.core.quantity import number, shown, written
 from linkwright.core.table import Table, Tabular
 from linkwright.designs.demands import Bounds, Demand, bounds_of
-from linkwright.designs.expect.facts import FACTS
+from linkwright.designs.expect.facts import FACTS, INCOMPLETE
 from linkwright.designs.expect.section import Asked, expected
 from linkwright.designs.expect.values import Value, Values
 from linkwright.errors import Finding, LinkwrightError, QuantityError
@@ -233,7 +233,8 @@ def expectations(source: Mechanism | str | Path) -> Expectations:
 
     Returns:
         The table; numbers SI. Those of the cycle are exact between its positions, as metrics are; an output without
-        a summary is expected over the full cycle.
+        a summary is expected over the full cycle. Where ``cycle: incomplete`` is expected, they are those of the
+        positions that are reached.
 
     Raises:
         ModelError: the file or its section cannot be read, or an entry names what there is not; with all findings.
@@ -259,7 +260,7 @@ def expectations(source: Mechanism | str | Path) -> Expectations:
     require(source, Mechanism, str, PathLike)
     mechanism = source if isinstance(source, Mechanism) else load(source)
     asked = expected(mechanism)
-    values = Values(mechanism)
+    values = Values(mechanism, in_part=any(each.entry.demand.equals == INCOMPLETE for each in asked))
     return Expectations(mechanism.name, tuple(_judged(each, values) for each in asked), how_to(mechanism))
 
 
@@ -276,7 +277,7 @@ def how_to(mechanism: Mechanism) -> Message:
 def _judged(asked: Asked, values: Values) -> Expectation:
     """An entry with its value, or with the reason why there is none."""
     entry = asked.entry
-    plain = Expectation(asked.name, asked.of, str(entry.at), entry.demand, False, None, unit=entry.demand.unit)
+    plain = Expectation(asked.name, asked.of, entry.place, entry.demand, False, None, unit=entry.demand.unit)
     try:
         found = values.of(asked)
     except LinkwrightError as error:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from linkwright.analysis.by_name import is_summary, wanted
-from linkwright.core.expressions import Expression
+from linkwright.core.expressions import Expression, amount
 from linkwright.core.outputs import Output
 from linkwright.designs.demands import KEYS, Demand, bounds_of, demand_of, invalid_demand
 from linkwright.designs.expect.facts import FACTS, known_word
@@ -21,21 +21,31 @@ from linkwright.fields.reading import Place, Reader
 from linkwright.fields.tables import ByAddress, Either, Table, Value
 from linkwright.files.reader import SectionReading
 from linkwright.kinematics.names import no_output, output_meant, output_names
+from linkwright.kinematics.positions import rotary
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.registry import no_such
 from linkwright.units import powers
 from linkwright.words import _
 
 _OF = _("what is expected, where the entry has a name of its own: a metric, an output, a summary, an expression")
-_AT = _("input at which an output has the value, such as 60 deg or rocker max, or a time")
+_AT = _("input at which an output has the value, such as 60 deg or rocker max, a time, or inputs by driver")
 
 
 @dataclass(frozen=True)
 class Entry:
-    """One entry as written; ``of``: what the demand is on, by default the entry's own name; ``at``: the input."""
+    """One entry as written; ``of``: what the demand is on, by default the entry's own name; ``at``: the input, or
+    inputs by driver."""
 
     demand: Demand
     of: str = ""
-    at: str | float = ""
+    at: str | float | Mapping[str, Any] = ""
+
+    @property
+    def place(self) -> str:
+        """The input as text."""
+        if isinstance(self.at, Mapping):
+            return ", ".join(f"{name} {value}" for name, value in self.at.items())
+        return str(self.at)
 
 
 @dataclass(frozen=True)
@@ -56,7 +66,7 @@ class EntryField(Either):
 
 
 SECTION = ByAddress(
-    EntryField(Value(), Table({"of": Text(doc=_OF), "at": Value(doc=_AT), **KEYS})),
+    EntryField(Value(), Table({"of": Text(doc=_OF), "at": Either(Value(), ByAddress(Value()), doc=_AT), **KEYS})),
     doc=_(
         "what must hold, by metric, output, summary or fact: at least 40 deg, at most 60 kN, 1..2 m, "
         "120 mm ± 0.5 mm; for the command check --expect"
@@ -71,7 +81,7 @@ class Subject:
 
     fact: str = ""
     output: Output | None = None
-    at: PositionList | None = None
+    at: PositionList | Mapping[str, float] | None = None
     expression: Expression | None = None
     numbers: Mapping[str, str] | None = None
 
@@ -97,26 +107,30 @@ def expected(mechanism: Mechanism, source: str = "") -> tuple[Asked, ...]:
     for name, entry in (reading.values or {}).items():
         if entry is None:
             continue
+        key, text = f"{name}.of" if entry.of else name, entry.of or name
         try:
-            found.append(Asked(name, entry, _subject(mechanism, entry.of or name, entry)))
+            if entry.at == "":
+                subject = _subject(mechanism, text, entry.demand)
+            else:
+                subject, key = _at(mechanism, text, entry.demand), f"{name}.at"
+                subject = replace(subject, at=_place(mechanism, entry.at))
+            found.append(Asked(name, entry, subject))
         except LinkwrightError as error:
-            reading.note(f"{name}.of" if entry.of else name, error)
+            reading.note(key, error)
     reading.settle()
     return tuple(found)
 
 
-def _subject(mechanism: Mechanism, text: str, entry: Entry) -> Subject:
+def _subject(mechanism: Mechanism, text: str, demand: Demand) -> Subject:
     """What an entry is about; raises LinkwrightError for what there is not, and for values of another dimension."""
     dimensions = mechanism.dimensions()
-    if entry.at != "":
-        return _at(mechanism, text, entry, is_number(text, dimensions) or text in FACTS)
     if text in FACTS:
-        return _fact(text, entry.demand)
+        return _fact(text, demand)
     if is_number(text, dimensions):
-        return _number(mechanism, text, entry.demand)
+        return _number(mechanism, text, demand)
     with suppress(RequestError):
         output = output_meant(mechanism, text)
-        _fits(entry.demand, text, output.dimension)
+        _fits(demand, text, output.dimension)
         return Subject(output=output)
     if is_one_name(text):
         no_output(mechanism, text, [*FACTS, *NumberNames(()), *output_names(mechanism)])
@@ -151,29 +165,44 @@ def _fits(demand: Demand, text: str, dimension: str) -> None:
         bounds_of(replace(demand, text=text), powers(dimension), 0.0)
 
 
-def _at(mechanism: Mechanism, text: str, entry: Entry, of_cycle: bool) -> Subject:
-    """An output at an input, or at a time."""
-    if of_cycle:
-        raise RequestError(
-            _(
-                '"{text}" is a number of the full cycle, which has no value at one input; leave at out, or name an '
-                "output such as rocker.angle",
-                code="expect.number_at",
-                text=text,
-            )
-        )
+def _at(mechanism: Mechanism, text: str, demand: Demand) -> Subject:
+    """An output that is expected at one position; raises RequestError for a number of the full cycle."""
+    try:
+        output = output_meant(mechanism, text)
+    except RequestError:
+        if text in FACTS or is_number(text, mechanism.dimensions()):
+            raise RequestError(
+                _(
+                    '"{text}" is a number of the full cycle, which has no value at one input; leave at out, or name '
+                    "an output such as rocker.angle",
+                    code="expect.number_at",
+                    text=text,
+                )
+            ) from None
+        raise
+    _fits(demand, text, output.dimension)
+    return Subject(output=output)
+
+
+def _place(mechanism: Mechanism, at: str | float | Mapping[str, Any]) -> PositionList | Mapping[str, float]:
+    """One position, or inputs by driver; raises LinkwrightError for what is none."""
     if not mechanism.drivers:
         raise RequestError(_("the model has no driver, so there is no input to set", code="solve.no_input"))
-    output = output_meant(mechanism, text)
-    _fits(entry.demand, text, output.dimension)
-    places = of_value(entry.at, (mechanism.across, "time"))
+    if isinstance(at, Mapping):
+        return _inputs(mechanism, at)
+    places = of_value(at, (mechanism.across, "time"))
     known_outputs(mechanism, places)
     if len(places.entries) != 1:
         raise RequestError(
-            _(
-                '"{text}" is more than one position; give one entry for each',
-                code="expect.one_place",
-                text=str(entry.at),
-            )
+            _('"{text}" is more than one position; give one entry for each', code="expect.one_place", text=str(at))
         )
-    return Subject(output=output, at=places)
+    return places
+
+
+def _inputs(mechanism: Mechanism, values: Mapping[str, Any]) -> dict[str, float]:
+    """Coordinates of drivers, rad or m; raises LinkwrightError for an unknown driver and other dimensions."""
+    drivers = rotary(mechanism)
+    for name in values:
+        if name not in drivers:
+            raise RequestError(no_such(_("driver"), name, drivers))
+    return {name: amount(str(value), "angle" if drivers[name] else "length") for name, value in values.items()}

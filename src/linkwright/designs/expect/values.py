@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -20,11 +21,16 @@ from linkwright.designs.expect.facts import FACTS
 from linkwright.designs.expect.section import Asked
 from linkwright.designs.ranges import dimension_of
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.machine.flywheel import FLUCTUATION
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.units import powers
 from linkwright.words import _
+
+#: The metric that is about how much of a cycle can be passed.
+RANGE = "range_of_motion"
 
 
 class Value(NamedTuple):
@@ -38,31 +44,47 @@ class Value(NamedTuple):
     turns: bool = False
 
 
-class _Moving(Alternative):
-    """The machine where numbers of its motion alone are asked for."""
+@dataclass(eq=False)
+class _Machine(Alternative):
+    """The machine over its cycle: ``forced``: with its forces; ``in_part``: over what it reaches of the cycle."""
+
+    forced: bool = False
+    in_part: bool = False
+
+    @cached_property
+    def motion(self) -> Motion:
+        return solve_motion(self.mechanism, steps=self.steps, failures="mark" if self.in_part else "raise")
 
     @cached_property
     def analysis(self) -> Analysis:
-        return Analysis.of(self.motion)
+        return Analysis.of(self.forces if self.forced else self.motion)
 
 
 @dataclass(frozen=True)
 class Values:
-    """Finds values of one machine; what they share is solved once."""
+    """Finds values of one machine; what they share is solved once. ``in_part``: its cycle is not passed, and that is
+    expected, so that values are those of what it reaches."""
 
     mechanism: Mechanism
+    in_part: bool = False
 
     @cached_property
     def _output(self) -> Output:
         return usual_output(self.mechanism)
 
     @cached_property
-    def _moving(self) -> Alternative:
-        return _Moving(self.mechanism.name, self.mechanism, self._output, STEPS, FLUCTUATION)
+    def _machines(self) -> dict[tuple[bool, bool], Alternative]:
+        return {}
 
-    @cached_property
-    def _loaded(self) -> Alternative:
-        return Alternative(self.mechanism.name, self.mechanism, self._output, STEPS, FLUCTUATION)
+    def _machine(self, *, forces: bool, in_part: bool) -> Alternative:
+        """The machine solved with its forces, or without."""
+        key = forces, in_part
+        if key not in self._machines:
+            name, output = self.mechanism.name, self._output
+            self._machines[key] = _Machine(
+                name, self.mechanism, output, STEPS, FLUCTUATION, forced=forces, in_part=in_part
+            )
+        return self._machines[key]
 
     @cached_property
     def _dimensions(self) -> dict[str, float]:
@@ -92,7 +114,7 @@ class Values:
         forces = needs_forces(name, self.mechanism, own)
         if forces and (missing := unloaded(self.mechanism, [name])) is not None:
             raise RequestError(missing)
-        machine = self._loaded if forces else self._moving
+        machine = self._machine(forces=forces, in_part=self.in_part or name.partition(" ")[0] == RANGE)
         found = criterion(name).measure(machine)
         if found is None:
             notes = machine.notes[-1:] or [_("it does not apply to this machine", code="expect.inapplicable")]
@@ -103,7 +125,11 @@ class Values:
         """An output at one position, which the machine reaches from where its cycle begins."""
         subject = asked.subject
         assert subject.at is not None and subject.output is not None
-        motion = subject.at.solved(self.mechanism, failures="raise")
+        motion = (
+            solve_motion(self.mechanism, at=subject.at)
+            if isinstance(subject.at, Mapping)
+            else subject.at.solved(self.mechanism, failures="raise")
+        )
         result = motion if subject.output.of_motion else solve_forces(motion)
         value = Analysis.of(result).signal(asked.of)(result)
         name = subject.output.dimension
