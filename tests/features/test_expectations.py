@@ -229,4 +229,4 @@ def test_the_table_in_both_languages_and_as_data() -> None:
     first, second = table.data()["expectations"]
     assert first["holds"] and second["low"] == pytest.approx(math.radians(50.0)) and second["high"] is None
     assert second["unit"] == "rad" and second["value"] == pytest.approx(math.radians(HIGH - LOW))
-    assert list(table.to_dataframe()["holds"]) == [True, False]
+    assert table.columns()["holds"] == [True, False]
