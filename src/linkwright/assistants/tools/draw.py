@@ -16,7 +16,6 @@ from linkwright.core.arguments import DRAWING_STEPS
 from linkwright.errors import Finding, LinkwrightError, RequestError
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.plotting.diagrams.base import plot
 from linkwright.plotting.drawing.draw import draw
 from linkwright.words import _
 from linkwright.words.message import code_of, in_language
@@ -110,6 +109,8 @@ def draw_machine(
         findings.append(Finding("warning", "", "", refusal.sentence, "", refusal.code))
     images = [drawing.png(width=width)]
     if curves != "none":
+        from linkwright.plotting.diagrams.base import plot
+
         try:
             images.append(plot(mechanism, curves, language=desk.language).content(".png", dpi=DOTS))
         except LinkwrightError as error:

@@ -11,7 +11,6 @@ from linkwright.assistants.answers import Answer, NextAction
 from linkwright.assistants.failures import entries
 from linkwright.assistants.tool import Desk, Model, Overwrite
 from linkwright.errors import Finding
-from linkwright.reports.report import report
 from linkwright.words import _
 from linkwright.words.message import in_language
 
@@ -60,6 +59,8 @@ def write_report(
     model's section report sets title, author and own texts. Comes back: the file's name and size, and the sections
     that had nothing to show; the report itself does not come back.
     """
+    from linkwright.reports.report import report
+
     source = desk.source(model)
     target = desk.folder.target(file, ENDINGS, overwrite=overwrite)
     mechanism, findings = source.mechanism()
