@@ -90,7 +90,7 @@ def motion(text: str, times: list[float]) -> lw.Motion:
 
 
 #: These run in every run, the others on one day of seven each.
-ALWAYS = ("four-bar", "scotch yoke", "exact numbers")
+ALWAYS = ("scotch yoke", "exact numbers")
 NAMES = [pytest.param(each, marks=() if each in ALWAYS else pytest.mark.rotating) for each in (*LINKS, "oldest")]
 
 
@@ -161,6 +161,7 @@ def test_slots() -> None:
     assert "import.angle_rounded" in [each.code for each in snapped.findings]
 
 
+@pytest.mark.rotating
 def test_a_gripper_of_mobility_0_is_refused() -> None:
     jaws = {"F": (-2, 2), "G": (0, 2), "H": (-2, -2), "I": (0, -2)}
     corners = [point("0", each, *place) for each, place in jaws.items()]

@@ -2,10 +2,12 @@
 
 import json
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 from tests.importers.pmks_by_hand import by_hand
+from tests.importers.share_by_hand import stamped
 
 import linkwright as lw
 
@@ -145,3 +147,17 @@ def test_what_is_no_joint_has_its_line() -> None:
     assert [each.code for each in three.findings if each.severity == "error"] == ["import.guide_links"]
     lost = lw.read_foreign(TEXTS["gear pair"].replace("output ground,R,10,0.00\n", ""))
     assert [each.code for each in lost.findings if each.severity == "error"] == ["import.no_centres"]
+
+
+SHARED = (
+    "2P.Fe,1E8.K,0.1011.6A,A,0,0,0.0B,B,0,VG,0.0C,C,1E8,_W,0.4D,D,1Tm,0,0..YRAB,AB,Fe,Fe,0,Fe,c5cae9,A,B,,."
+    "YRBC,BC,Fe,Fe,d4,ku,c5cae9,B,C,,.YRCD,CD,Fe,Fe,1Ly,VG,c5cae9,C,D,,...N_"
+)
+
+
+def test_files_of_plain_text_are_told_apart(tmp_path: Path) -> None:
+    path = tmp_path / "crank.txt"
+    path.write_text(TEXTS["four-bar"] + "\ncoupler X 5 5\n", encoding="utf-8")
+    assert lw.read_foreign(path).format == "pmks_text"
+    path.write_text(stamped(SHARED) + "\n", encoding="utf-8")
+    assert lw.read_foreign(path).format == "pmks_plus"

@@ -116,14 +116,16 @@ class Layout:
     """What a reader found; ``places`` gives findings their place.
 
     ``unit``: of lengths in the text that is made of it; ``precision``: to which places are known, m (0: all digits
-    count), within which numbers are written short. ``traced``: points whose paths the file asks for, "body.point".
-    ``loads``: further loads as the section of a model file has them. ``cycle``, ``assembly``: likewise.
+    count), within which numbers are written short; ``centre_precision``: likewise of mass centres. ``traced``:
+    points whose paths the file asks for, "body.point". ``loads``: further loads as the section of a model file has
+    them. ``cycle``, ``assembly``: likewise.
     """
 
     name: str = ""
     source: str = ""
     unit: str = "mm"
     precision: float = 0.0
+    centre_precision: float = 0.0
     frame: Body = field(default_factory=lambda: Body(FRAME))
     bodies: dict[str, Body] = field(default_factory=dict)
     slides: list[Slide] = field(default_factory=list)

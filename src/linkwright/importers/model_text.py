@@ -103,7 +103,8 @@ class Writer:
             found |= {key: f"{number(value)} {unit}"} if value else {}
         if body.centre is not None:
             named = next((name for name, each in body.places.items() if self.same(each, body.centre)), None)
-            found["mass_centre"] = named or [self.length(each) for each in self.turned(body, body.centre)]
+            within = max(self.tolerance, self.layout.centre_precision)
+            found["mass_centre"] = named or [self.length(each, within) for each in self.turned(body, body.centre)]
         return found | ({"colour": body.colour} if body.colour else {})
 
     def further(self) -> set[str]:

@@ -60,7 +60,7 @@ def pmks_file(text: str, remarks: Remarks) -> PmksFile | None:
         return _json_file(text, remarks)
     found = PmksFile()
     for line, column, record in _records(text, found, remarks):
-        joint = _joint(record)
+        joint = joint_of(record)
         if joint is None:
             _refuse(remarks, _("this is no joint of PMKS: {text}", text=record.strip()), line, column)
             continue
@@ -131,7 +131,7 @@ def _set(found: PmksFile, key: str, value: str) -> None:
         return
 
 
-def _joint(text: str) -> Record | None:
+def joint_of(text: str) -> Record | None:
     """The joint of a record; None: it is none."""
     words = [each for each in re.split(r"[,\s]+", text) if each]
     places = [k for k, each in enumerate(words) if each.upper() in KINDS]

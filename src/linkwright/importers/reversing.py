@@ -18,6 +18,7 @@ def turn_round(layout: Layout, remarks: Remarks) -> None:
         mechanism, _unused = read_text(model_text(layout), "model")
         free = mechanism is not None and input_range(mechanism)
     except LinkwrightError:
+        layout.cycle = "rock" if layout.drives[0].slide else None  # which says why it has no range
         return
     if not free or (free.low is None and free.high is None):
         return

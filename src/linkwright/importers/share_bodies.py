@@ -35,6 +35,8 @@ class ShareBodies:
         self.names: dict[str, str] = {}
         self.bodies: dict[str, str] = {}
         self.snapped: list[ShareJoint] = []
+        if not any(each.startswith("PL") for each in reader.corrected):
+            self.made.centre_precision = ROUNDED * self.factor / 10
         self.corrected = {
             tag[2:] for tag, place, *_value in (each.split("~") for each in reader.corrected) if place == "2"
         }
@@ -177,14 +179,13 @@ class ShareBodies:
         """A remark about angles that were rounded."""
         if not self.snapped:
             return
-        first, names = self.snapped[0], ", ".join(each.id for each in self.snapped)
+        first, *others = self.snapped
         degrees = f"{math.degrees(round(first.angle / SNAP) * SNAP):.0f}"
         message = _(
-            "angles have three decimals here: {angle} rad is read as {degrees}°, likewise at {names}",
-            angle=first.angle,
-            degrees=degrees,
-            names=names,
+            "angles have three decimals here: {angle} rad is read as {degrees}°", angle=first.angle, degrees=degrees
         )
+        if others:
+            message = _("{message}, likewise at {names}", message=message, names=tuple(each.id for each in others))
         self.tell(message, "", "import.angle_rounded", f"J{first.id}")
 
     def floating(self, joint: ShareJoint) -> tuple[str, str, tuple[str, str]] | None:

@@ -178,4 +178,4 @@ class Machine(ShareBodies):
             self.remarks.remark("note", message, "", "import.only_seen", line=self.reader.line)
 
 
-READERS.register("pmks_plus")(ForeignFormat(_("PMKS+ share link"), (".pmksplus",), recognises, read_share))
+READERS.register("pmks_plus")(ForeignFormat(_("PMKS+ share link"), (".pmksplus", ".txt"), recognises, read_share))

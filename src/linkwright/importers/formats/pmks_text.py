@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 
 from linkwright.core.data import Plain
@@ -10,7 +11,7 @@ from linkwright.errors import Severity
 from linkwright.importers.foreign import READERS, Answers, ForeignFormat, ForeignText
 from linkwright.importers.layout import FRAME, Body, Drive, Layout, Remarks, Slide, Wheels, free_name
 from linkwright.importers.model_text import shortest
-from linkwright.importers.pmks_records import PmksFile, Record, is_ground, pmks_file
+from linkwright.importers.pmks_records import PmksFile, Record, is_ground, joint_of, pmks_file
 from linkwright.importers.reversing import turn_round
 from linkwright.importers.rigid import join_rigid
 from linkwright.mechanism.link import Vec
@@ -29,9 +30,7 @@ def recognises(source: ForeignText) -> bool:
         return True
     if text.lstrip()[:1] in ("<", "{"):
         return False
-    remarks = Remarks("")
-    found = pmks_file(text, remarks)
-    return found is not None and len(found.records) > 1
+    return sum(joint_of(each) is not None for each in re.split(r"[\n|]", text)) > 1
 
 
 def read_pmks(source: ForeignText, answers: Answers, remarks: Remarks) -> Layout | None:
