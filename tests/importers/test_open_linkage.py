@@ -250,6 +250,13 @@ def test_what_is_left_out_is_said() -> None:
     assert lw.read_foreign(project("four_bar_version_1", driverId=None), driver="L1").ok
 
 
+def test_a_guide_on_a_bar_that_is_not_there_is_fixed_where_it_is_drawn() -> None:
+    joints = json.loads(project("guide_on_a_still_bar"))["joints"]
+    joints[2]["slider"] |= {"referenceBarId": "L8", "originX": joints[2]["x"], "originY": joints[2]["y"]}
+    foreign = lw.read_foreign(project("guide_on_a_still_bar", joints=joints))
+    assert ("warning", "import.skipped") in codes(foreign) and "guide: frame" in foreign.text
+
+
 def test_an_input_angle_that_does_not_assemble_is_replaced_by_the_nearest() -> None:
     given = {"ground": 100, "input": 60, "coupler": 40, "output": 50}
     foreign = lw.read_foreign(project("four_bar_open", parameters=given, inputAngle=120))

@@ -185,8 +185,11 @@ def _lengths(plan: PinPlan, graph: Graph, sizes: Json) -> None:
             plan.lengths[edge.a, edge.b] = given[edge.key].value
     for each in sizes.entries("hyperedge_constraints").values():
         for row in each.items():
-            a, b, *length = row.items()
-            plan.lengths[a.word, b.word] = length[0].value if length else row.value
+            parts = list(row.items())
+            if len(parts) == 3:
+                plan.lengths[parts[0].word, parts[1].word] = parts[2].value
+            else:
+                row.expected(_("a list of two joints and their distance"))
         for key, distance in each.own_entries().items():
             ends = [
                 part.strip(" '\"") for part in key.strip("()[] ").split(",")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -132,5 +133,6 @@ def parse_json(text: str, remarks: Remarks) -> Json | None:
 
 
 def key_in(text: str, *keys: str) -> bool:
-    """Whether a text looks like a JSON mapping with these keys, without reading it."""
-    return text.lstrip().startswith("{") and all(f'"{key}"' in text for key in keys)
+    """Whether a text looks like a JSON mapping with these keys, without reading it; ``key[]``: with a list."""
+    patterns = (f'"{key[:-2]}"\\s*:\\s*\\[' if key.endswith("[]") else f'"{key}"\\s*:' for key in keys)
+    return text.lstrip().startswith("{") and all(re.search(each, text) for each in patterns)

@@ -68,3 +68,13 @@ def test_short_numbers_and_names() -> None:
     assert shortest(35.00000012, 1e-6) == "35" and float(shortest(0.1 + 0.2)) == 0.1 + 0.2
     assert free_name("A 1", {"A_1"}) == "A_1_2"
     assert free_name("12", set()) == "p12" and free_name("", set(), "pin") == "pin"
+
+
+def test_further_points_of_a_link_with_a_length_are_written_in_its_axes() -> None:
+    layout = slider_crank(length=0.12)
+    layout.bodies["rod"].places["P"] = (0.0, 0.045)
+    text = model_text(layout)
+    assert "points: [A, B], length: 120 mm, also: {P: [" in text and "  P:" not in text
+    motion = lw.solve_motion(lw.loads(text), times=[0.0, 0.3])
+    away = motion.point("P").position - motion.point("A").position
+    assert np.hypot(*away.T) == pytest.approx(0.01, abs=1e-9)

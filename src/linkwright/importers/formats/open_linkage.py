@@ -16,7 +16,7 @@ from linkwright.words import _
 
 
 def _recognises(source: ForeignText) -> bool:
-    return key_in(source.text, "mechanismType") or key_in(source.text, "joints", "bars")
+    return key_in(source.text, "mechanismType") or key_in(source.text, "joints[]", "bars[]")
 
 
 def _read(source: ForeignText, answers: Answers, remarks: Remarks) -> Layout | None:
