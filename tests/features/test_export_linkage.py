@@ -1,11 +1,13 @@
 """Machines written as files of Linkage and read back: the same positions over the cycle; what it cannot hold."""
 
+import json
 import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 from tests import store
+from tests.cli.commands import run
 
 import linkwright as lw
 
@@ -87,3 +89,12 @@ cycle: {duration: 6 s}
     again = lw.solve_motion(found.mechanism, times=motion.time)
     assert again.point("H").position == pytest.approx(motion.point("H").position, abs=1e-12)
     assert found.mechanism.links["arm"].colour == "#a8503f"
+
+
+def test_the_command_says_what_is_left_out(tmp_path: Path) -> None:
+    said = run("export", "gallery:whitworth", "--to", str(tmp_path / "x.linkage2"), "--steps", "8")
+    assert said.code == 0 and "Masses, loads" in said.out
+    data = json.loads(run("export", "gallery:parallelogram", "--to", str(tmp_path / "y.linkage2"), "--json").out)
+    assert any("cycle" in each for each in data["left_out"])
+    told = run("export", "gallery:internal_gear_pair", "--to", str(tmp_path / "z.linkage2"), "--steps", "8").out
+    assert "mesh turns as in the machine" in told

@@ -123,7 +123,12 @@ LINKS = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", LINKS)
+#: These run in every run, the others on one day of seven each.
+ALWAYS = ("four-bar", "inverted slider-crank", "scotch yoke", "cylinder lifts a boom")
+NAMES = [pytest.param(each, marks=() if each in ALWAYS else pytest.mark.rotating) for each in LINKS]
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_places_over_the_cycle(name: str) -> None:
     found, other = lw.read_foreign(LINKS[name]), read_link(LINKS[name])
     assert found.ok and found.format == "pmks_plus", found.findings

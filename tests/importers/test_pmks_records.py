@@ -135,7 +135,12 @@ def compare(found: lw.Foreign, other: Reading, share: float = 1.0) -> None:
         assert min(float(np.abs(each - expected[key]).max()) for each in near) <= 1e-9 * size, (key, body)
 
 
-@pytest.mark.parametrize("name", TEXTS)
+#: These run in every run, the others on one day of seven each.
+ALWAYS = ("slider-crank", "quick return with a slotted lever", "gear train")
+NAMES = [pytest.param(each, marks=() if each in ALWAYS else pytest.mark.rotating) for each in TEXTS]
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_places_of_texts(name: str) -> None:
     found = lw.read_foreign(TEXTS[name], format="pmks_text")
     assert found.ok, [str(each) for each in found.findings]

@@ -48,6 +48,7 @@ class Reader:
         self.found = Layout(name=name)
         self.found.unit = answers.unit or ("in" if file.inches else "mm")
         self.found.precision = 0.0 if file.precise else 0.5 * 10**-DECIMALS * PIXEL
+        self._ask()
         self.bodies = Bodies(file, self.found, remarks)
 
     def layout(self) -> Layout:
@@ -66,7 +67,7 @@ class Reader:
 
     def _drives(self) -> None:
         """Inputs and actuators; those moved by hand rest beside others that move by themselves."""
-        inputs = [each for each in self.bodies.used.values() if each.input] or self._asked()
+        inputs = [each for each in self.bodies.used.values() if each.input]
         turns = [(each, body) for each in inputs if (body := self._turned(each)) is not None]
         actuators = [each for each in self.bodies.actuators if self._ends(each) is not None]
         if not turns and not actuators:
@@ -84,12 +85,11 @@ class Reader:
         if moving and (actuators or len(moving) > 1):
             self.found.cycle = {"duration": f"{float(self._period(moving)):.12g} s"}
 
-    def _asked(self) -> list[Connector]:
-        """The connector that the user names as driven."""
-        found = [each for each in self.bodies.used.values() if each.shown == self.answers.driver]
-        for each in found:
-            each.input = True
-        return found
+    def _ask(self) -> None:
+        """Makes the connector that the user names an input, where the file has none."""
+        if not any(each.input for each in self.file.connectors.values()):
+            for each in self.file.connectors.values():
+                each.input = each.shown == self.answers.driver
 
     def _turned(self, connector: Connector) -> str | None:
         """The body that an input turns."""
@@ -163,13 +163,10 @@ class Reader:
 
     def _ends(self, link: LinkElement) -> tuple[tuple[str, str], tuple[str, str]] | None:
         """The two ends of an actuator as (body, point); None, where one hangs free or both are of one body."""
-        found: list[tuple[str, str]] = []
-        for each in link.connectors:
-            holders = self.bodies.all_holding(each)
-            if holders:
-                found.append((holders[0], self.bodies.names[each]))
-        if len(found) == 2 and found[0][0] != found[1][0]:
-            return found[0], found[1]
+        holders = [self.bodies.all_holding(each) for each in link.connectors]
+        if all(holders) and not set(holders[0]) & set(holders[1]):
+            one, other = (self.bodies.names[each] for each in link.connectors)
+            return (holders[0][0], one), (holders[1][0], other)
         message = _("the two ends of this actuator are not pinned to two different links; it is left out")
         remedy = _("pin both of its ends")
         self.remarks.remark("warning", message, remedy, "import.linkage_actuator", line=link.line, key=link.key)
