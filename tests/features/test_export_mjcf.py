@@ -231,6 +231,9 @@ def test_the_way_of_closing_is_an_option() -> None:
         lw.mujoco_loops(store.machine("five_bar_robot"), loops="joint")
     with refused("given_instead.no_choice"):
         lw.mujoco_loops(machine, loops="soft")
+    for wrong in ({"closure": 0.0}, {"timestep": -1e-3, "simulate": True}):
+        with refused("given_instead.not_positive"):
+            lw.mujoco_loops(machine, **wrong)
 
 
 def test_the_command_prints_gaps(tmp_path: Path) -> None:

@@ -116,6 +116,21 @@ def real(option: str, value: object, *, finite: bool = True) -> float:
     return found
 
 
+def positive(option: str, value: object) -> float:
+    """A finite number above zero; raises RequestError for anything else."""
+    found = real(option, value)
+    if found <= 0.0:
+        raise RequestError(
+            _(
+                "{option} is {value}; give a number above zero, in SI units",
+                code="given_instead.not_positive",
+                option=option,
+                value=found,
+            )
+        )
+    return found
+
+
 def require_pair(option: str, value: object) -> None:
     """Raises RequestError for anything but two numbers."""
     numbers = list(value) if isinstance(value, Iterable) and not isinstance(value, str) else []

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 
-from linkwright.core.arguments import real
+from linkwright.core.arguments import positive
 from linkwright.exporters.mjcf.bodies import Chains
 from linkwright.exporters.mjcf.drives import actuators, key, laws_and_ranges, reflected_inertia, steady
 from linkwright.exporters.mjcf.elements import compiler, equality, numbers, tendons, world
@@ -34,7 +34,7 @@ def mjcf_content(
     """
     chains = Chains(results.motion, results.first_ok())
     closed = closed_loops(chains, loops, closure)
-    step = real("timestep", timestep) if timestep is not None else seconds(results.motion) / STEPS_PER_CYCLE
+    step = positive("timestep", timestep) if timestep is not None else seconds(results.motion) / STEPS_PER_CYCLE
     root = ET.Element("mujoco", model=results.mechanism.name)
     root.append(compiler(chains))
     _options(root, results, step)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from linkwright.core.arguments import one_of, real
+from linkwright.core.arguments import one_of, positive
 from linkwright.core.quantity import shown
 from linkwright.elements import Connection
 from linkwright.errors import LinkwrightError
@@ -42,7 +42,7 @@ def closed_loops(chains: Chains, loops: str, closure: float) -> tuple[Loop, ...]
     Raises LinkwrightError where ``joint`` is asked for, and no polynomial closes a loop.
     """
     one_of("loops", loops, WAYS)
-    closure = real("closure", closure)
+    closure = positive("closure", closure)
     found: list[Loop] = []
     for group in chains.structure.groups:
         if not group.cuts:
