@@ -28,6 +28,7 @@ NAMES = (
     "python",
     "svg",
     "urdf",
+    "usd",
     "xlsx",
 )
 #: Options of formats; one that a format lacks is refused with those that it has.
@@ -50,7 +51,7 @@ OPTIONS = (
 
 
 @command(
-    _("write results for other programs: Excel, CSV, Parquet, DXF, MuJoCo, Modelica, URDF, Linkage, PMKS+"),
+    _("write results for other programs: Excel, CSV, Parquet, DXF, MuJoCo, Modelica, URDF, USD, Linkage, PMKS+"),
     _(
         """\
 Solves a mechanism over its cycle, with forces where it has masses or loads, and
@@ -61,7 +62,8 @@ writes the results to a file; the file's ending chooses the format.
   .svg .png .pdf  kinematic drawing                .html   living page, works without a network
   .md             table of the metrics             .py     Python program that solves the machine
   .linkage2       Linkage file of the motion       .pmksplus  share link of PMKS+
-  .urdf           URDF robot, with its loops in a file beside it"""
+  .urdf           URDF robot, with its loops in a file beside it
+  .usda           USD scene with physics: bodies, joints, drives"""
     ),
     _(
         """\

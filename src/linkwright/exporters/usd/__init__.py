@@ -1,0 +1,1 @@
+"""USD scenes with physics: rigid bodies, joints of the tree and of its loops, drives."""
