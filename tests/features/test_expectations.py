@@ -21,6 +21,19 @@ links:
 assembly: {B: left}
 driver: {turn: crank, about: O1, speed: 60 rpm}
 """
+PISTON = """\
+format: 1
+name: Slider-crank
+frame: {points: {O: [0 mm, 0 mm]}}
+links:
+  crank: {points: [O, A], length: 60 mm}
+  rod: {points: [A, B], length: 200 mm}
+  piston: {points: [B]}
+joints:
+  cylinder: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: piston, at: B}
+assembly: {B: forward}
+driver: {turn: crank, about: O, speed: 60 rpm}
+"""
 #: Angle of the rocker where crank and coupler are in one line, stretched and folded.
 LOW, HIGH = (180.0 - math.degrees(math.acos((185e3 - d * d) / 175e3)) for d in (400, 200))
 #: The same where the crank points at the rocker's pivot.
@@ -86,6 +99,23 @@ def test_by_how_much_it_fails(entry: str, off: float) -> None:
     assert not row.holds and row.off == pytest.approx(off, rel=1e-9)
     (finding,) = table.findings()
     assert (finding.severity, finding.code, finding.key) == ("error", "not-met", f"expect.{row.name}")
+
+
+@pytest.mark.parametrize(
+    ("entry", "rests"),
+    [
+        ("piston.B.y max: at most 10 mm", True),
+        ("piston.B.y: at least -10 mm", True),
+        ("piston.B.y: 0 mm ± 1 mm", False),
+        ("piston.B.y range: at most 1 mm", False),
+        ("piston.B.x max: at most 300 mm", False),
+        ("crank.angular_velocity: at most 10 rad/s", False),
+    ],
+)
+def test_a_bound_on_a_place_that_rests(entry: str, rests: bool) -> None:
+    """A piston moves along x alone: what holds of its y says nothing about its motion."""
+    table = found(entry, PISTON)
+    assert table.ok and [each.code for each in table.findings()] == (["constant"] if rests else [])
 
 
 def test_inputs_of_two_drivers() -> None:

@@ -46,6 +46,7 @@ class Expectation:
 
     ``value``: a number, SI, or a word; None where there is none, for the ``reason``. Of an output over the cycle it
     is the smallest, and ``last`` the largest. ``low`` and ``high``: the bounds, SI, infinite where there is none.
+    ``rests``: it is bounded on one side, and is of a place that is the same over the cycle.
     """
 
     name: str
@@ -61,6 +62,7 @@ class Expectation:
     unit: str = ""
     si: str = ""
     reason: str = ""
+    rests: bool = False
 
     @property
     def off(self) -> float:
@@ -119,9 +121,18 @@ class Expectation:
             return written(value, self.unit)
         return shown(value, self.dimension) if self.dimension else f"{number(value)} {self.si}".strip()
 
+    @property
+    def _one(self) -> str:
+        return self._shown(self.value) if isinstance(self.value, float) else self.found
+
     def finding(self) -> Finding:
-        """The error that it does not hold, at its key."""
+        """The error that it does not hold, or the note that it is of what rests, at its key."""
         about, key = self.label, f"expect.{self.name}"
+        if self.holds:
+            message = _(
+                "{name} holds, but says little: it is {found} over the full cycle", name=about, found=self._one
+            )
+            return Finding("note", "", key, message, _("name what moves, or expect the value itself"), "constant")
         if self.value is None:
             message = _("{name} has no value here: {cause}", name=about, cause=self.reason)
             return Finding("error", "", key, message, "", "no-value")
@@ -183,12 +194,13 @@ class Expectations(Tabular):
         return next(each for each in self.rows if each.name == name)
 
     def findings(self) -> list[Finding]:
-        """An error for every expectation that does not hold; a note where there is none."""
+        """An error for every expectation that does not hold, a note for one of a place that rests; a note where there
+        is none."""
         if not self.rows:
             return [Finding("note", "", "", NONE.format(name=self.name), self.how, "no-expectations")]
         found, causes = [], set[str]()
         for each in self.rows:
-            if not each.holds:
+            if not each.holds or each.rests:
                 finding = each.finding()
                 if each.reason and str(each.reason) in causes:
                     message = _("{name} has no value here for the same reason", name=each.name)
@@ -285,7 +297,9 @@ def _judged(asked: Asked, values: Values) -> Expectation:
     if asked.subject.fact and FACTS[asked.subject.fact].words:
         return replace(plain, value=found.number, holds=entry.demand.equals == found.number)
     try:
-        return _compared(plain, found)
+        compared = _compared(plain, found)
+        one_sided = math.isinf(compared.low) != math.isinf(compared.high)
+        return replace(compared, rests=compared.holds and one_sided and values.rests(asked))
     except QuantityError as error:
         return replace(plain, reason=error.sentence)
 

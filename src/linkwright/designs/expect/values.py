@@ -10,11 +10,11 @@ from typing import NamedTuple
 from linkwright import units
 from linkwright.analysis import Analysis
 from linkwright.analysis.by_name import Asked as OfOutput
-from linkwright.analysis.by_name import needs_forces
+from linkwright.analysis.by_name import is_summary, needs_forces, wanted
 from linkwright.analysis.evaluate import unloaded
 from linkwright.analysis.outputs import usual_output
 from linkwright.core.arguments import STEPS
-from linkwright.core.outputs import Output
+from linkwright.core.outputs import PLACES, Output
 from linkwright.designs.alternatives import Alternative
 from linkwright.designs.criteria import criterion
 from linkwright.designs.expect.facts import FACTS
@@ -22,6 +22,7 @@ from linkwright.designs.expect.section import Asked
 from linkwright.designs.ranges import dimension_of
 from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.names import output_meant
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.machine.flywheel import FLUCTUATION
@@ -29,6 +30,8 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.units import powers
 from linkwright.words import _
 
+#: What changes by less than this, rad or shares of the machine's size, rests.
+RESTING = 1e-9
 #: The metric that is about how much of a cycle can be passed.
 RANGE = "range_of_motion"
 
@@ -105,6 +108,20 @@ class Values:
             return found[""]
         kind = subject.expression.dimension({name: each.kind for name, each in found.items()})
         return Value(subject.expression.evaluate({name: float(each.number) for name, each in found.items()}), kind)
+
+    def rests(self, asked: Asked) -> bool:
+        """Whether an entry is on a place, over the cycle or at an extreme, that is the same all over it."""
+        subject, words = asked.subject, asked.of
+        if subject.output is None:
+            name = (subject.numbers or {}).get("", "")
+            if subject.expression is not None or name in self._dimensions or not is_summary(name):
+                return False
+            (summary,) = wanted([name])
+            words = summary.output if summary.kind in ("min", "max", "mean", "rms", "peak") else ""
+        if subject.at is not None or not words or output_meant(self.mechanism, words).kind not in PLACES:
+            return False
+        size = self.mechanism.size if output_meant(self.mechanism, words).dimension == "length" else 1.0
+        return abs(float(self._number(f"{words} range").number)) <= RESTING * size
 
     def _number(self, name: str) -> Value:
         """A dimension, a metric or a summary."""
