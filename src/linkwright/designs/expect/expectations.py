@@ -251,23 +251,22 @@ def expectations(source: Mechanism | str | Path) -> Expectations:
     Raises:
         ModelError: the file or its section cannot be read, or an entry names what there is not; with all findings.
 
-    ```python
-    import linkwright as lw
-
-    found = lw.expectations(lw.loads('''
-    format: 1
-    name: Crank-rocker
-    frame: {points: {O1: [0 mm, 0 mm], O2: [250 mm, 0 mm]}}
-    links:
-      crank: {points: [O1, A], length: 100 mm}
-      coupler: {points: [A, B], length: 400 mm}
-      rocker: {points: [O2, B], length: 350 mm}
-    assembly: {B: left}
-    driver: {turn: crank, about: O1, speed: 60 rpm}
-    expect: {transmission_angle: at least 40 deg, rocker.angle range: 47.4 deg ± 0.1 deg}
-    '''))
-    assert found.ok
-    ```
+    Example:
+        >>> import linkwright as lw
+        >>> found = lw.expectations(lw.loads('''
+        ... format: 1
+        ... name: Crank-rocker
+        ... frame: {points: {O1: [0 mm, 0 mm], O2: [250 mm, 0 mm]}}
+        ... links:
+        ...   crank: {points: [O1, A], length: 100 mm}
+        ...   coupler: {points: [A, B], length: 400 mm}
+        ...   rocker: {points: [O2, B], length: 350 mm}
+        ... assembly: {B: left}
+        ... driver: {turn: crank, about: O1, speed: 60 rpm}
+        ... expect: {transmission_angle: at least 20 deg, rocker.angle range: 54.7 deg ± 0.1 deg}
+        ... '''))
+        >>> found.ok
+        True
     """
     require(source, Mechanism, str, PathLike)
     mechanism = source if isinstance(source, Mechanism) else load(source)
