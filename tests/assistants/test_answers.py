@@ -287,3 +287,34 @@ def test_positions_of_several_drivers_and_limit_positions() -> None:
     assert at.column(first) == pytest.approx([math.radians(10), math.radians(20)])
     assert at.column(second) == pytest.approx([math.radians(-30)] * 2)
     assert call("draw_machine", model=model, at=asked.replace(", 20 deg", "")).pictures
+
+
+ARM = """\
+format: 1
+name: arm
+frame: {points: {O: [0 m, 0 m]}}
+links: {arm: {points: [O, G], length: 0.5 m, mass: 2 kg, mass_centre: [0.5 m, 0 m]}}
+driver: {turn: arm, about: O, speed: 1 rad/s}
+gravity: [0, -9.81 m/s²]
+run: {for: 1 s}
+"""
+
+
+def test_a_pendulum_stays_at_rest_below_and_falls_with_its_energy() -> None:
+    """A point mass on an arm: at rest above and below, there with √(g/l); let go level it swings as energy says."""
+    found = call("solve_machine", model=ARM, under="rest")
+    above, below = found.data["rests"]
+    assert (above["stability"], below["stability"]) == ("unstable", "stable")
+    assert [each["inputs"]["driver"] for each in (above, below)] == pytest.approx([math.pi / 2, 1.5 * math.pi])
+    assert below["frequencies"] == pytest.approx([math.sqrt(9.81 / 0.5) / (2 * math.pi)])
+    run = call("solve_machine", model=ARM, under="forces", positions=8, columns=["arm.angle", "arm.angular_velocity"])
+    assert run.column("time") == pytest.approx([k / 8 for k in range(9)])
+    for angle, speed in zip(run.column("arm.angle"), run.column("arm.angular_velocity"), strict=True):
+        assert 0.5 * (0.5 * speed) ** 2 + 9.81 * 0.5 * math.sin(angle) == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.mark.rotating
+def test_a_run_tells_how_it_ends_and_what_happens() -> None:
+    found = call("solve_machine", model="gallery:press_stop", under="forces")
+    assert "s, then" in found.data["summary"] and any(each.startswith("dynamics.") for each in found.codes)
+    assert call("solve_machine", model=CRANK_ROCKER, under="forces").failed

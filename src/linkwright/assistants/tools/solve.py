@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from contextlib import suppress
-from typing import Annotated
+from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field
@@ -12,6 +12,7 @@ from pydantic import Field
 from linkwright.assistants.answers import Answer, Answered, NextAction, numbers
 from linkwright.assistants.failures import entries, of_error
 from linkwright.assistants.positions import positions_at
+from linkwright.assistants.released import RestEntry, released, rests
 from linkwright.assistants.tool import Desk, Model
 from linkwright.core.arrays import Floats, Indices
 from linkwright.core.outputs import Output
@@ -23,7 +24,7 @@ from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.kinetostatics.table import results_of
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.words import _
+from linkwright.words import Message, _
 from linkwright.words.message import in_language
 
 #: Positions and columns of a table at most; positions of the cycle on which angles are counted on.
@@ -48,6 +49,9 @@ class SolveAnswer(Answer):
     columns: list[ColumnEntry] = Field(default_factory=list, description="quantities, each with a value per position")
     reached: list[bool] = Field(default_factory=list, description="per position, whether the machine reaches it")
     forces: bool = Field(default=False, description="whether joint forces and driver efforts were solved")
+    rests: list[RestEntry] = Field(
+        default_factory=list, description="positions in which the machine stays at rest by itself, where asked for"
+    )
     available: list[str] = Field(
         default_factory=list, description="names that columns may have, where some were left out of this table"
     )
@@ -80,6 +84,16 @@ def solve_machine(
     positions: Annotated[
         int, Field(ge=1, le=MOST_ROWS, description="Number of equal steps over the cycle where 'at' is empty.")
     ] = 12,
+    under: Annotated[
+        Literal["drivers", "forces", "rest"],
+        Field(
+            description=(
+                "What moves it. drivers (default): the laws of the drivers. forces: it is let go, and motors, loads,"
+                " springs and weights decide (sections actuators, run; masses are needed); the table is over time. "
+                "rest: all positions in which it stays at rest by itself, and which are stable."
+            )
+        ),
+    ] = "drivers",
     static: Annotated[
         bool, Field(description="true: forces without inertia (quasi-static). Default false: with inertia.")
     ] = False,
@@ -91,15 +105,30 @@ def solve_machine(
     cycle (largest torque, smallest transmission angle, stroke) use get_metrics: it is exact between positions. For a
     picture use draw_machine.
 
+    With 'under' it also lets the machine go: its run under motors, springs and weights, or where it stays at rest.
+
     Units are SI (rad, m, s, N, N·m); angles, rates and moments are counter-clockwise positive; x to the right, y up.
     A reaction is the force on the link that is named last. Forces need masses or loads in the model. A position that
     is not reached has null values and a warning that says why. Comes back: at most 60 positions and 40 columns, and
     the names of further columns.
     """
     mechanism, findings = desk.source(model).mechanism()
-    motion, rows = _motion(mechanism, at, positions)
-    forces, refusal = _forces(motion, columns, static)
-    findings = [*findings, *refusal, *_unreached(motion, rows), *_notes(motion, forces)]
+    if under != "drivers" and at.strip():
+        raise RequestError(
+            _('"at" goes with under: drivers; leave it out where the machine is let go', code="assistants.at")
+        )
+    if under == "rest":
+        return _at_rest(mechanism, findings, desk.language)
+    ending: Message | None = None
+    forces: Forces | None
+    if under == "forces":
+        course = released(mechanism, positions)
+        forces, motion, ending = course.forces, course.forces.motion, course.ending
+        rows, more = np.arange(motion.steps), [*course.events]
+    else:
+        motion, rows = _motion(mechanism, at, positions)
+        forces, more = _forces(motion, columns, static)
+    findings = [*findings, *more, *_unreached(motion, rows), *_notes(motion, forces)]
     results = results_of(motion, forces)
     picked = _picked(mechanism, motion, forces, columns, results)
     listed = [] if len(picked) == len(results) else [each.column for each in results][:LISTED]
@@ -112,7 +141,7 @@ def solve_machine(
     )
     return SolveAnswer(
         ok=not errors,
-        summary=in_language(summary, desk.language),
+        summary=in_language(ending or summary, desk.language),
         findings=entries(findings, desk.language),
         next=[NextAction(tool="get_metrics", why="extreme values over the cycle, exact between positions")],
         columns=[
@@ -122,6 +151,19 @@ def solve_machine(
         reached=[bool(each) for each in motion.ok[rows]],
         forces=forces is not None,
         available=listed,
+    )
+
+
+def _at_rest(mechanism: Mechanism, findings: list[Finding], language: str) -> SolveAnswer:
+    """The positions at rest in place of a table."""
+    found = rests(mechanism)
+    summary = _("{name}: {count} positions at rest", name=mechanism.name, count=len(found))
+    return SolveAnswer(
+        ok=True,
+        summary=in_language(summary, language),
+        findings=entries(findings, language),
+        next=[NextAction(tool="draw_machine", why="a picture of one of these positions: at=its input")],
+        rests=found,
     )
 
 
