@@ -134,3 +134,40 @@ def test_tells_what_it_leaves_out(tmp_path: Path) -> None:
     assert "left out: drag" in said and "Friction" in said and "Gravity" not in said
     again = shown("import", str(tmp_path / "lever.pmksplus"))
     assert "speed: -33.3333 rpm" in again and "link: rod" not in again
+
+
+def test_names_of_every_script_come_back(tmp_path: Path) -> None:
+    machine = lw.loads(MACHINE.replace("crank", "曲柄").replace("rocker", "Schwinge'ä"))
+    path = lw.export(machine, tmp_path / "x.pmksplus", steps=12)
+    assert path.read_text(encoding="ascii").startswith("https://app.pmksplus.com/?")
+    assert list(lw.read_foreign(path).mechanism.links) == ["曲柄", "rod", "Schwinge'ä"]
+
+
+@pytest.mark.parametrize("seam", ["B", "C"])
+def test_welded_links_are_one_link(seam: str, tmp_path: Path) -> None:
+    """With the parts of PMKS+ where only they meet at the seam; it would weld a third link there as well."""
+    machine = lw.loads(f"""format: 1
+name: Bent coupler
+frame: {{points: {{O: [0 mm, 0 mm], Q: [60 mm, 0 mm]}}}}
+links:
+  crank: {{points: [O, A], length: 20 mm}}
+  rod: {{points: [A, B, C], mass: 1 kg, inertia: 1e-4 kg·m²}}
+  arm: {{points: [{seam}, T], length: 30 mm, mass: 1 kg, inertia: 2e-4 kg·m²}}
+  rocker: {{points: [Q, B], length: 40 mm}}
+joints: {{seam: {{kind: weld, links: [rod, arm], at: {seam}, angle: 40 deg}}}}
+drawing: {{A: [0 mm, 20 mm], B: [50 mm, 39 mm], C: [30 mm, 50 mm]}}
+driver: {{turn: crank, about: O, speed: 20 rpm, start: 90 deg}}
+""")
+    motion = lw.solve_motion(machine, steps=24)
+    path = lw.export(motion, tmp_path / "x.pmksplus")
+    found = lw.read_foreign(path)
+    again = lw.solve_motion(found.mechanism, times=motion.time)
+    assert again.point("T").position == pytest.approx(motion.point("T").position, abs=1e-12)
+    whole, start = (
+        found.mechanism.links["rod"],
+        {each: motion.point(each).position[0] for each in ("A", "B", seam, "T")},
+    )
+    apart = np.hypot(*((start["A"] + start["B"] - start[seam] - start["T"]) / 2))
+    assert set(whole.points) == {"A", "B", "C", "T"} and whole.mass == 2.0
+    assert whole.inertia == pytest.approx(3e-4 + 2 * (apart / 2) ** 2, rel=1e-12)
+    assert (".NR" in path.read_text()) == (seam == "C")

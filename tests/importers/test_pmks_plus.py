@@ -191,3 +191,33 @@ def test_a_driver_that_cannot_turn_through_goes_to_and_fro() -> None:
     found = lw.read_foreign(LINKS["driven pin between two links"])
     assert "cycle: rock" in found.text and "import.to_and_fro" in [each.code for each in found.findings]
     assert lw.solve_motion(found.mechanism, steps=24).complete
+
+
+def test_units_follow_the_unit_of_length() -> None:
+    loads = f"3F1,BC,F1,{written(5)},{written(4)},{written(6)},{written(4)},{written(2)}"
+    inch = lw.read_foreign(
+        link(*FOUR_BAR, bar("A", "B"), bar("B", "C"), bar("C", "D"), head="2P.Fe,1E8.8,0.0000", loads=loads)
+    ).mechanism
+    coupler = inch.links["BC"]
+    assert coupler.mass == pytest.approx(0.45359237)
+    assert coupler.inertia == pytest.approx(0.45359237 * 0.0254**2)
+    assert inch.frame.points["D"] == pytest.approx((6 * 0.0254, 0.0))
+    pull = inch.loads["F1"]  # it turns with its link, from 21.8° at the start
+    assert pull.magnitude.size.value == pytest.approx(2 * 4.4482216152605)
+    assert pull.in_link == pytest.approx(-math.atan2(2, 5), abs=1e-9) and pull.at == "C"
+
+
+def test_letters_of_links_and_masses_on_joints() -> None:
+    heavy = (*FOUR_BAR[:2], point("0", "C", 5, 4, 0, f",,,,,{written(2)}"), FOUR_BAR[3])
+    text = link(*heavy, bar("A", "B"), bar("B", "C"), bar("C", "D"))
+    found = lw.read_foreign(text.replace("YRAB", "ARAB").replace("YRBC", "1RBC"))  # automatic; a disc
+    assert found.ok and "import.joint_mass" in [each.code for each in found.findings]
+    coupler = found.mechanism.links["BC"]
+    assert coupler.mass == pytest.approx(3.0)  # 1 kg of its own at (0, 0), 2 kg at C
+    assert found.mechanism.gravity == (0.0, -9.81)
+
+
+def test_three_bodies_on_a_driven_pin_are_told() -> None:
+    joints = (*FOUR_BAR[:2], point("2", "C", 5, 4), FOUR_BAR[3], point("0", "E", 7, 7))
+    found = lw.read_foreign(link(*joints, bar("A", "B"), bar("B", "C"), bar("C", "D"), bar("C", "E")))
+    assert "import.driven_bodies" in [each.code for each in found.findings]

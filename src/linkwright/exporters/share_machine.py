@@ -119,8 +119,6 @@ class ShareParts:
                     self.links[name] = self.link(name)
             if len(names) > 1:
                 self.compound(names)
-        for weld in self.welds:
-            self.joints[weld.links[0], weld.at].welded = True
 
     def welded(self) -> list[list[str]]:
         """Links that are welded to each other, each link once; raises LinkwrightError for a weld to the frame."""
@@ -167,10 +165,22 @@ class ShareParts:
             self.new_id("".join(joints)), names[0], joints, tuple(each.id for each in parts), mass, inertia, x, y
         )
         whole.colour = parts[0].colour
-        for each in parts:
-            each.root = False
+        seams = [weld for weld in self.welds if weld.links[0] in names]
+        if all(self.meet_alone(weld) for weld in seams):
+            for weld in seams:
+                self.joints[weld.links[0], weld.at].welded = True
+            for each in parts:
+                each.root = False
+        else:  # a welded joint of PMKS+ welds all that is there: one link without parts
+            whole.parts = ()
+            self.share.links = [each for each in self.share.links if each not in parts]
         self.share.links.append(whole)
         self.links |= dict.fromkeys(names, whole)
+
+    def meet_alone(self, weld: RigidJoint) -> bool:
+        """Whether only the two links of a weld meet at its joint."""
+        seam = self.joints[weld.links[0], weld.at]
+        return {name for (name, _point), joint in self.joints.items() if joint is seam} == set(weld.links)
 
     def new_id(self, wanted: str) -> str:
         """An id that no link has yet."""

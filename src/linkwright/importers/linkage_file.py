@@ -252,4 +252,4 @@ def _shown_only(element: Element) -> bool:
 def _colour(text: str) -> str:
     """A colour from its number, whose lowest byte is red; empty where there is none."""
     value = _integer(text)
-    return f"#{value & 255:02x}{value >> 8 & 255:02x}{value >> 16 & 255:02x}" if text else ""
+    return f"#{value & 255:02x}{value >> 8 & 255:02x}{value >> 16 & 255:02x}" if text.strip().isdigit() else ""
