@@ -4,7 +4,7 @@
     python -m tests.mujoco_cycles --steps 1000         with so many time steps per cycle
     python -m tests.mujoco_cycles --loops connect kite some of them, with another way of closing
 
-Needs MuJoCo (`pip install mujoco`). Exit code: 0 all within 0.01 mm, 1 not.
+Needs MuJoCo (`pip install mujoco`). Exit code: 0 all that MuJoCo can carry are within 0.01 mm, 1 not.
 """
 
 from __future__ import annotations
@@ -21,6 +21,8 @@ import linkwright as lw
 
 #: Largest gap of a loop, and largest distance of a point from its exact place, m.
 GOAL = 1e-5
+#: Code of the refusal of machines with cams, which MuJoCo does not carry.
+CAM = "joints.cam_sums"
 
 
 def machines(names: list[str]) -> list[str]:
@@ -53,7 +55,7 @@ def main(arguments: list[str]) -> int:
             found = lw.mujoco_loops(motion, loops=asked.loops, closure=asked.closure, timestep=step, simulate=True)
         except lw.LinkwrightError as refusal:
             print(f"{name:30} not exported: {refusal}")
-            missed += 1
+            missed += refusal.code != CAM
             continue
         cycle = found.cycle
         assert cycle is not None
