@@ -13,6 +13,7 @@ from linkwright.importers.layout import FRAME, Drive, Layout, Remarks, free_name
 from linkwright.importers.linkage_bodies import Bodies
 from linkwright.importers.linkage_file import DECIMALS, PIXEL, Connector, LinkageFile, LinkElement, read_file
 from linkwright.importers.linkage_guides import Gearing, Guides
+from linkwright.importers.reversing import turn_round
 from linkwright.importers.rigid import join_rigid
 from linkwright.words import Message, _
 
@@ -61,6 +62,7 @@ class Reader:
         self._drop_idle()
         join_rigid(self.found)
         self._drop_fixed()
+        turn_round(self.found, self.remarks)
         return self.found
 
     # -- drivers
