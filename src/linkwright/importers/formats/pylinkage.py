@@ -12,7 +12,7 @@ from linkwright.importers.foreign import READERS, Answers, ForeignFormat, Foreig
 from linkwright.importers.joint_graph import read_graph
 from linkwright.importers.json_tree import Json, key_in, parse_json
 from linkwright.importers.layout import Layout, Remarks
-from linkwright.importers.pin_plan import build
+from linkwright.importers.pin_build import build
 from linkwright.importers.pylinkage_mechanism import read_mechanism
 from linkwright.words import _
 
