@@ -93,9 +93,7 @@ class Converter(ShareParts):
                 _("{driver} goes to and fro at constant speed in PMKS+, without gentle ends.", driver=driver.name)
             )
         elif self.mechanism.cycle is not None:
-            self.notes.append(
-                _("The cycle is left out: PMKS+ turns the driver on, or to and fro between its limits.")
-            )
+            self.notes.append(_("The cycle is left out: PMKS+ drives on, or to and fro between the limits."))
         return driver, speed
 
     def refuse(self, driver: Driver) -> RequestError:
