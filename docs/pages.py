@@ -405,6 +405,8 @@ def codes(language: str) -> Iterator[str]:
         yield f"| `{code}` | {cell(plain(re.sub('{.*?}', '…', Message(text).translate(language))))} |"
     yield f"\n## {words['errors']}\n\n{words['parts']}\n\n{words['areas']}"
     for area, some in coded.of_errors().items():
+        if not some:  # of notes alone
+            continue
         shown = ", ".join(f"`{each}`" for each in some[:3])
         yield f"| `{area}` | {coded.AREAS[area].translate(language)} | {shown} |"
 

@@ -219,6 +219,7 @@ def test_a_code_is_explained() -> None:
     assert found.data["meaning"] == "a number without its unit" and found.data["wrong"] and found.data["right"]
     assert call("explain_finding", code="motion.refused").data["meaning"]
     assert call("explain_finding", ".", "zh", code="missing-unit").data["meaning"] == "数没有单位"
+    assert call("explain_finding", code="dynamics.impact").data["meaning"] == "runs under forces"
     assert call("explain_finding", code="mising-unit").failed
 
 

@@ -13,6 +13,7 @@ from linkwright import gallery
 from linkwright.core.data import json_text
 from linkwright.files.gallery_entries import entries
 from linkwright.files.model_file import json_schema
+from linkwright.words import _
 from linkwright.words.message import in_language
 
 SCHEMA, GLOSSARY, GALLERY = "linkwright://schema", "linkwright://glossary", "linkwright://gallery"
@@ -70,4 +71,5 @@ def add_resources(server: MCPServer[Any], *, language: str) -> None:
         try:
             return gallery.content(name).decode()
         except KeyError:
-            raise ResourceNotFoundError(f"the gallery has no file {name!r}; {GALLERY} lists all") from None
+            message = _('the gallery has no model "{name}"', code="gallery.unknown", name=name)
+            raise ResourceNotFoundError(in_language(message, language)) from None
