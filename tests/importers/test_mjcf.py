@@ -124,3 +124,29 @@ def test_a_floating_base_is_the_frame_where_one_says_so() -> None:
       <body name="arm" pos=".1 0 0"><joint name="J" axis="0 1 0"/>
       <geom type="capsule" size=".01" fromto="0 0 0 .2 0 0"/></body></body></worldbody></mujoco>"""
     assert lw.read_foreign(text, fixed="base", driver="J", speed=1.0).mechanism.frame.points["J"] == (0.1, 1.0)
+
+
+def test_what_hangs_on_a_loose_body_is_left_out() -> None:
+    text = """<mujoco><worldbody><site name="s" pos="0 0 1"/>
+      <body name="box"><freejoint/><geom size=".1"/><site name="t"/></body>
+      <body name="door" pos="1 0 0"><joint name="door" axis="0 0 1"/>
+      <geom type="box" size=".1 .1 .1" pos=".2 0 0"/></body></worldbody>
+      <tendon><spatial name="rope" stiffness="1"><site site="s"/><site site="t"/></spatial>
+      </tendon></mujoco>"""
+    found = lw.read_foreign(text, driver="door", speed=1.0)
+    assert found.ok and "spring" not in found.text
+    # a link and its hinge of one name, and a second point that shows how the link is turned
+    machine = found.mechanism
+    assert list(machine.links["door"].points) == ["door", "door_tip"]
+    assert lw.solve_motion(machine, times=[np.pi / 2]).point("door_tip").position[0] == pytest.approx([1, 0.2])
+
+
+def test_the_spring_of_a_slide_is_linear_along_it() -> None:
+    text = """<mujoco><option gravity="0 0 0"/><worldbody><body name="cart" euler="0 0 30">
+      <joint name="way" type="slide" axis="1 0 0" stiffness="50" springref=".02" damping="3"/>
+      <inertial pos="0 0 0" mass="2" diaginertia="1e-3 1e-3 1e-3"/><site name="c"/></body>
+      <body name="arm" pos="1 0 0"><joint name="J" axis="0 0 1"/><geom size=".1" pos=".2 0 0"/></body>
+      </worldbody><actuator><motor name="push" joint="way"/><motor name="turn" joint="J"/></actuator></mujoco>"""
+    motion = lw.solve_motion(lw.read_foreign(text, speed=0.25).mechanism, times=[0.0, 0.3])
+    pushed = 50 * (np.array([0.0, 0.075]) - 0.02) + 3 * 0.25
+    assert lw.solve_forces(motion).driver_effort("push") == pytest.approx(pushed)

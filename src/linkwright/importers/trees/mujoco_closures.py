@@ -261,6 +261,8 @@ class Closures:
                 self.read.remarks.remark("warning", message, remedy, "import.mjcf_tendon", line=line, key=name)
                 continue
             sites = [int(self.model.wrap_objid[each]) for each in (first, first + 1)]
+            if any(int(self.model.site_bodyid[each]) in self.read.left_out for each in sites):
+                continue
             bodies = [self.read.names[int(self.model.site_bodyid[each])] for each in sites]
             ends = [self.read.plane.place(np.array(self.read.data.site_xpos[each])) for each in sites]
             tether = Tether(name, bodies[0], bodies[1], ends[0], ends[1], stiffness, float(rests[0]), damping)

@@ -8,24 +8,35 @@ from linkwright.core.data import Plain
 from linkwright.importers.model_text import DEGREE, Writer, shortest
 from linkwright.importers.trees.placed import Placed
 from linkwright.importers.trees.points import Point
-from linkwright.importers.trees.tree import TreeJoint
+from linkwright.importers.trees.tree import Tether, TreeJoint
 from linkwright.units import number
-from linkwright.words import _
+
+#: A point of a tether on each of its two parts.
+Ends = tuple[Tether, Point, Point]
+#: How far behind a slide the anchor of its spring is, as a share of the machine's size.
+BEHIND = 1.5
 
 
-def add_springs(made: Placed, tethers: list[tuple[Point, Point]]) -> None:
-    """Loads for the springs and dampers of hinges, and for those between points; slides' ones are left out."""
+def anchored(made: Placed, joint: TreeJoint, at: Point) -> Ends:
+    """The spring and damper of a slide: between the block's point and an anchor of the guide far behind it, where a
+    spring along the guide is linear in the displacement as the slide's own one."""
+    guide, block = made.group(joint.parent), made.group(joint.child)
+    inside = made.groups.inside[joint.parent]
+    length = BEHIND * made.size + max(0.0, joint.rest - (joint.low or 0.0), joint.rest)
+    place = inside(made.groups.inside[joint.child].back(at.places[block]))
+    anchor = place + inside.turn * (joint.slides or 1) * (joint.rest - length)
+    name = f"{joint.name}_spring" if joint.stiffness else f"{joint.name}_damper"
+    tether = Tether(name, joint.parent, joint.child, 0j, 0j, joint.stiffness, length, joint.damping)
+    return tether, made.points.alone(f"{joint.name}_anchor", guide, anchor), at
+
+
+def add_springs(made: Placed, tethers: list[Ends]) -> None:
+    """Loads for the springs and dampers of hinges, and for those between points."""
     writer = Writer(made.layout)
     for joint in made.moving:
-        if not (joint.stiffness or joint.damping):
-            continue
-        if joint.turns is None:
-            message = _("the spring or damper of a slide is left out")
-            remedy = _("write a spring between a point of the guide and one of the block")
-            made.remarks.remark("warning", message, remedy, "import.slide_spring", line=joint.line, key=joint.name)
-            continue
-        made.layout.loads |= _torsion(made, joint, writer)
-    for tether, (a, b) in zip(made.tree.tethers, tethers, strict=True):
+        if joint.turns is not None and (joint.stiffness or joint.damping):
+            made.layout.loads |= _torsion(made, joint, writer)
+    for tether, a, b in tethers:
         ends = [f"{made.body(part)}.{made.named[id(point)]}" for part, point in ((tether.a, a), (tether.b, b))]
         if tether.stiffness:
             length = writer.length(tether.free_length)

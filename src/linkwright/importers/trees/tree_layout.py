@@ -9,8 +9,8 @@ from linkwright.importers.model_text import Writer
 from linkwright.importers.trees.couplings import Rows
 from linkwright.importers.trees.placed import Placed, vec
 from linkwright.importers.trees.points import SAME, Point
-from linkwright.importers.trees.springs import add_springs
-from linkwright.importers.trees.tree import WORLD, Tree, TreeJoint
+from linkwright.importers.trees.springs import Ends, add_springs, anchored
+from linkwright.importers.trees.tree import WORLD, Tether, Tree, TreeJoint
 from linkwright.words import _
 
 
@@ -32,18 +32,15 @@ class TreeLayout:
         self._name_bodies()
         self._pins()
         self._marks()
+        self._directions()
         slides = [joint for joint in self.placed.moving if joint.slides is not None]
         for joint in slides:
             self.ends[joint.name] = self._slide_ends(joint)
         rows = Rows(self.placed)
         rows.add_points()
-        tethers = [
-            (
-                self.placed.points.mark(each.name, *self.placed.on(each.a, each.at_a)),
-                self.placed.points.mark(each.name, *self.placed.on(each.b, each.at_b)),
-            )
-            for each in self.placed.tree.tethers
-        ]
+        tethers = [self._tether(each) for each in self.placed.tree.tethers]
+        sprung = [joint for joint in slides if joint.stiffness or joint.damping]
+        tethers += [anchored(self.placed, joint, self.ends[joint.name][1]) for joint in sprung]
         self.placed.named = self.placed.points.names()
         self._places()
         self.made.slides = [self._slide(joint) for joint in slides]
@@ -99,6 +96,25 @@ class TreeLayout:
             for name, place in part.marks.items():
                 self.placed.points.mark(name.removeprefix(f"{part.name}."), *self.placed.on(part.name, place))
 
+    def _tether(self, tether: Tether) -> Ends:
+        """A tether with its points."""
+        mark, on = self.placed.points.mark, self.placed.on
+        ends = on(tether.a, tether.at_a), on(tether.b, tether.at_b)
+        return tether, mark(tether.name, *ends[0]), mark(tether.name, *ends[1])
+
+    def _directions(self) -> None:
+        """A second point for bodies that only have a hinge: the mass centre, or a place beside it."""
+        blocks = {self.placed.group(joint.child) for joint in self.placed.moving if joint.slides is not None}
+        for group, name in self.placed.bodies.items():
+            points = list(self.placed.points.of(group))
+            if group == WORLD or group in blocks or len(points) != 1:
+                continue
+            hinge = points[0].places[group]
+            parts = [self.placed.tree.parts[each] for each in self.placed.groups.members(group)]
+            centre = self.placed.groups.inside[parts[0].name](parts[0].centre)
+            away = centre - hinge if abs(centre - hinge) > 1e-3 * self.placed.size else ASIDE * self.placed.size
+            self.placed.points.mark(f"{name}_tip", group, hinge + away)
+
     def _slide_ends(self, joint: TreeJoint) -> tuple[Point, Point]:
         """A point of the guide on the line, and the one of the block that follows it: pins where they serve."""
         guide, block = self.placed.group(joint.parent), self.placed.group(joint.child)
@@ -138,7 +154,7 @@ class TreeLayout:
             self.placed.groups.start[self.placed.group(each)].turn * self.placed.groups.inside[each].turn * direction
             for each in (joint.parent, joint.child)
         ]
-        name = free_name(joint.name, [each.name for each in self.made.slides], "guide")
+        name = free_name(joint.name, self._taken(), "guide")
         ends = self.placed.bodies[guide], self.placed.bodies[block]
         points = self.placed.named[id(through)], self.placed.named[id(at)]
         made = Slide(name, ends[0], points[0], angle(lines[0]), ends[1], points[1])
@@ -196,7 +212,7 @@ class TreeLayout:
                 self._cycle(drive, joint, sense)
 
     def _taken(self) -> set[str]:
-        """Names that a driver cannot have."""
+        """Names that no other joint or driver can have."""
         made = self.made
         slides, wheels, drives = ({each.name for each in one} for one in (made.slides, made.wheels, made.drives))
         return {*self.placed.named.values(), *made.bodies, *slides, *wheels, *drives}
@@ -226,6 +242,8 @@ class TreeLayout:
             )
 
 
+#: How far beside a hinge a point is put that shows how a body turns, as a share of the machine's size.
+ASIDE = 0.2
 #: A full turn less what a limit may be rounded by, rad.
 FULL_TURN = 6.2
 
