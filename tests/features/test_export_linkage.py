@@ -91,6 +91,23 @@ cycle: {duration: 6 s}
     assert found.mechanism.links["arm"].colour == "#a8503f"
 
 
+def test_a_cylinder_at_rest_is_a_link(tmp_path: Path) -> None:
+    machine = lw.loads("""format: 1
+name: Lift and crank
+frame: {points: {O: [0 mm, 0 mm], U: [300 mm, -50 mm], V: [-90 mm, 0 mm]}}
+links: {arm: {points: [O, K, H]}, crank: {points: [V, W]}}
+drawing: {K: [200 mm, 250 mm], H: [400 mm, 480 mm], W: [-90 mm, 40 mm]}
+drivers:
+  motor: {turn: crank, about: V, speed: 30 rpm}
+  jack: {between: [frame.U, arm.K], speed: 0 mm/s, start: 320 mm}
+""")
+    motion = lw.solve_motion(machine, steps=8)
+    found = lw.read_foreign(lw.export(motion, tmp_path / "rest.linkage2"))
+    again = lw.solve_motion(lw.loads(found.text), times=motion.time)
+    assert again.point("W").position == pytest.approx(motion.point("W").position, abs=1e-12)
+    assert again.mechanism.frame.points["H"] == pytest.approx(motion.point("H").position[0], abs=1e-12)
+
+
 def test_the_command_says_what_is_left_out(tmp_path: Path) -> None:
     said = run("export", "gallery:whitworth", "--to", str(tmp_path / "x.linkage2"), "--steps", "8")
     assert said.code == 0 and "Masses, loads" in said.out

@@ -82,6 +82,11 @@ class Converter:
         """A driven distance that changes to and fro at constant speed as an actuator."""
         law, cylinder = driver.law, driver.cylinder
         assert cylinder is not None
+        ends = [self.links.numbers[each.link, each.point] for each in cylinder.between]
+        if law.constant_speed == 0:
+            self.found.link(driver.name, ends)
+            self.notes.append(_("{driver} rests and is a link of its length.", driver=driver.name))
+            return
         strokes = _strokes(law, float(self.motion.time[self.links.index])) if isinstance(law, TableLaw) else None
         if strokes is None:
             raise RequestError(
@@ -92,7 +97,6 @@ class Converter:
                     driver=driver.name,
                 )
             )
-        ends = [self.links.numbers[each.link, each.point] for each in cylinder.between]
         element = self.found.link(driver.name, ends)
         element.throw, element.rate = abs(strokes[0]), math.copysign(30 / strokes[1], strokes[0])
 
