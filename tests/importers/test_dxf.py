@@ -18,6 +18,7 @@ def codes(foreign: lw.Foreign, severity: str = "") -> list[str]:
     return [each.code for each in foreign.findings if each.code.startswith("import.") and severity in each.severity]
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", DRAWINGS)
 def test_drawings_move_as_an_independent_reading_says(name: str) -> None:
     foreign, times = lw.read_foreign(FILES / f"{name}.dxf"), [0.0, 0.07, 0.2, 0.4, 0.65]

@@ -138,6 +138,7 @@ def test_mechanisms_move_as_an_independent_reading_says(name: str) -> None:
     agrees(lw.read_foreign(FILES / f"{name}.json"), mechanism(json.loads(TEXTS[name])), 39)
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", GRAPHS)
 def test_graphs_move_as_an_independent_reading_says(name: str) -> None:
     data = json.loads(TEXTS[name])
