@@ -22,6 +22,8 @@ OF_SCHEMA = frozenset(
 )
 #: Codes that say that a name or file is not there.
 OF_FILES = frozenset({"no-file", "not-a-file", "file.outside", "model.none_given"})
+#: Codes about a machine that is assembled or moves otherwise than is meant.
+OF_PICTURE = frozenset({"mirrored", "drawing-off", "gap", "never-moves", "rigid", "coincident"})
 #: Codes and areas about positions that are not reached.
 OF_MOTION = ("motion.", "outcome.", "cycle.", "range.")
 
@@ -72,6 +74,8 @@ def next_action(finding: Finding) -> NextAction | None:
             arguments={},
             why="shows the position that is still reached; then change a length with change_dimension",
         )
+    if code in OF_PICTURE:
+        return NextAction(tool="draw_machine", arguments={}, why="shows the machine as it is assembled and moves")
     if finding.severity == "note" or not code or code.startswith("assistants."):
         return None
     return NextAction(

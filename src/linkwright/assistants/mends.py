@@ -76,7 +76,7 @@ MENDS: Mapping[str, Mend] = {
     "unused": Mend(f"{ROCKER}\n  spare: {{points: [X, Y], length: 50 mm}}", ROCKER),
     "no-inertia": Mend("  rocker: {points: [O2, B], length: 250 mm, mass: 2 kg}", ROCKER),
     "choice": Mend("  work: {kind: torque, on: rocker, magnitude: -20 N·m, table: {}}", LOAD),
-    "circle": Mend("parameters: {a: 2*b, b: 3*a}", "parameters: {a: 2*b, b: 30 mm}"),
+    "circle": Mend("parameters: {b: 3*a, a: 2*b}", "parameters: {b: 30 mm, a: 2*b}"),
     "tab": Mend("driver:\n\tturn: crank", DRIVER),
     "syntax": Mend("driver: {turn: crank, about: O1, speed: 60 rpm", DRIVER),
     "version": Mend("format: 2", "format: 1"),
@@ -98,6 +98,17 @@ MENDS: Mapping[str, Mend] = {
     "unlikely": Mend(
         "joints: {B: {kind: revolute, pin_radius: 10 mm, friction: 10}}",
         "joints: {B: {kind: revolute, pin_radius: 10 mm, friction: 0.1}}",
+    ),
+    "mirrored": Mend(
+        "drawing: {A: [100 mm, 0 mm], B: [333 mm, -240 mm]}", "drawing: {A: [100 mm, 0 mm], B: [333 mm, 240 mm]}"
+    ),
+    "drawing-off": Mend(
+        "drawing: {A: [100 mm, 0 mm], B: [700 mm, 240 mm]}", "drawing: {A: [100 mm, 0 mm], B: [333 mm, 240 mm]}"
+    ),
+    "constant": Mend("outputs: {gap: O2.x - 0.1 m}", "outputs: {gap: B.x - 0.1 m}"),
+    "never-moves": Mend(
+        "driver: {turn: crank, about: O1, position: 30 deg}\ncycle: {duration: 1 s}",
+        "driver: {turn: crank, about: O1, position: 30 deg + 1 rad/s * t}\ncycle: {duration: 1 s}",
     ),
     "motion.refused_told": Mend(
         "  crank: {points: [O1, A], length: 200 mm}",

@@ -32,6 +32,7 @@ def test_errors_come_first_and_what_is_not_listed_is_counted() -> None:
         ("file.outside", "", "search_gallery", {}),
         ("motion.refused", "", "draw_machine", {}),
         ("outcome.apart", "", "draw_machine", {}),
+        ("mirrored", "assembly.B", "draw_machine", {}),
         ("mobility.free", "", "explain_finding", {"code": "mobility.free"}),
     ],
 )
