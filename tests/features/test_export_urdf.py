@@ -29,7 +29,10 @@ def mimics(path: Path) -> dict[str, tuple[str, float]]:
     return found
 
 
-@pytest.mark.parametrize("name", ["crank_rocker", "shaper_quick_return", "scotch_yoke", "parallelogram"])
+ROTATING = [pytest.param(each, marks=pytest.mark.rotating) for each in ("shaper_quick_return", "parallelogram")]
+
+
+@pytest.mark.parametrize("name", ["crank_rocker", "scotch_yoke", *ROTATING])
 def test_matrices_along_the_tree_give_the_same_points(name: str, tmp_path: Path) -> None:
     robot = UrdfPositions(exported(name, tmp_path))
     motion = lw.solve_motion(store.machine(name), steps=STEPS)

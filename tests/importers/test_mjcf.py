@@ -1,5 +1,6 @@
 """MuJoCo models read as model files: positions over a cycle against MuJoCo's own kinematics, loads, findings."""
 
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -7,6 +8,7 @@ import pytest
 from tests.importers.mujoco_positions import MujocoPositions
 
 import linkwright as lw
+from linkwright.errors import LinkwrightError
 
 FILES = Path(__file__).parent / "mjcf"
 AXES = dict(zip("xyz", np.eye(3), strict=True))
@@ -27,7 +29,12 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("file", CASES)
+#: These run every day.
+CORE = ("four_bar", "slider_crank_upright", "pin_in_slot", "planetary_tendons")
+DAILY = [pytest.param(file, marks=() if file in CORE else pytest.mark.rotating) for file in CASES]
+
+
+@pytest.mark.parametrize("file", DAILY)
 def test_moves_as_in_mujoco(file: str) -> None:
     joint, far, axes = CASES[file]
     moved = np.linspace(0, far, 19)
@@ -100,6 +107,13 @@ def test_limits_of_the_driven_joint_are_its_cycle() -> None:
     assert codes(found).count("import.limits") == 1 and "import.loose" in codes(found)
 
 
+def test_without_mujoco_the_way_to_it_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "mujoco", None)
+    with pytest.raises(LinkwrightError) as caught:
+        lw.read_foreign(FILES / "four_bar.xml")
+    assert caught.value.code == "export.needs_package" and "pip install mujoco" in str(caught.value)
+
+
 @pytest.mark.parametrize(
     ("text", "code"),
     [
@@ -124,6 +138,13 @@ def test_a_floating_base_is_the_frame_where_one_says_so() -> None:
       <body name="arm" pos=".1 0 0"><joint name="J" axis="0 1 0"/>
       <geom type="capsule" size=".01" fromto="0 0 0 .2 0 0"/></body></body></worldbody></mujoco>"""
     assert lw.read_foreign(text, fixed="base", driver="J", speed=1.0).mechanism.frame.points["J"] == (0.1, 1.0)
+
+
+def test_another_body_can_be_the_frame() -> None:
+    found = lw.read_foreign(FILES / "four_bar.xml", fixed="rocker", speed=1.0)
+    machine = lw.loads(found.text)
+    assert set(machine.links) == {"base", "crank", "coupler"} and set(machine.frame.points) == {"Q", "B"}
+    assert codes(lw.read_foreign(FILES / "four_bar.xml", fixed="bed")) == ["import.no_speed", "import.no_such_frame"]
 
 
 def test_what_hangs_on_a_loose_body_is_left_out() -> None:

@@ -26,7 +26,12 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("file", CASES)
+#: These run every day.
+CORE = ("parallelogram", "rack", "slider_crank", "coupled")
+DAILY = [pytest.param(file, marks=() if file in CORE else pytest.mark.rotating) for file in CASES]
+
+
+@pytest.mark.parametrize("file", DAILY)
 def test_moves_as_matrices_say(file: str) -> None:
     joints, begun, far, axes = CASES[file]
     moved = np.linspace(0, far, 9)

@@ -10,6 +10,8 @@ from linkwright.importers.foreign import READERS, Answers, ForeignFormat, Foreig
 from linkwright.importers.layout import Layout, Remarks
 from linkwright.importers.trees.mujoco_model import NO_INERTIA, NO_MASS, MujocoModel
 from linkwright.importers.trees.mujoco_tree import mujoco_tree
+from linkwright.importers.trees.rebased import held_at
+from linkwright.importers.trees.tree import WORLD
 from linkwright.importers.trees.tree_layout import tree_layout
 from linkwright.importers.xml_tree import Lines, parse_xml
 from linkwright.words import _
@@ -31,8 +33,12 @@ def read(source: ForeignText, answers: Answers, remarks: Remarks) -> Layout | No
     compiled = _compiled(mujoco, source, remarks)
     if compiled is None:
         return None
-    tree = mujoco_tree(MujocoModel(mujoco, compiled, Lines(root), answers, remarks))
-    return None if tree is None else tree_layout(tree, remarks)
+    read_model = MujocoModel(mujoco, compiled, Lines(root), answers, remarks)
+    tree = mujoco_tree(read_model)
+    if tree is None:
+        return None
+    tree = held_at(tree, answers.fixed if read_model.held < 0 else None, WORLD, remarks)
+    return None if remarks.failed else tree_layout(tree, remarks)
 
 
 def recognises(source: ForeignText) -> bool:

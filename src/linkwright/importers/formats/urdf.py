@@ -18,7 +18,7 @@ from linkwright.importers.trees.loop_file import (
 from linkwright.importers.trees.mimic_loops import add_pins, drop_implied
 from linkwright.importers.trees.motors import add_driver
 from linkwright.importers.trees.plane import plane_of
-from linkwright.importers.trees.rebased import rebased
+from linkwright.importers.trees.rebased import held_at
 from linkwright.importers.trees.tree import Motor, Tree
 from linkwright.importers.trees.tree_layout import tree_layout
 from linkwright.importers.trees.urdf_model import UrdfModel
@@ -51,9 +51,8 @@ def read(source: ForeignText, answers: Answers, remarks: Remarks) -> Layout | No
     if remarks.failed:
         return None
     add_driver(tree, motors, answers, remarks)
-    if answers.fixed is not None:
-        tree = rebased(tree, model.part_name(answers.fixed))
-    return tree_layout(tree, remarks)
+    tree = held_at(tree, answers.fixed, model.base, remarks)
+    return None if remarks.failed else tree_layout(tree, remarks)
 
 
 def recognises(source: ForeignText) -> bool:

@@ -34,8 +34,15 @@ class MujocoModel:
         self.names[0] = WORLD
         self.joint_names = self._names("joint", mujoco.mjtObj.mjOBJ_JOINT, model.njnt, self.names)
         self.left_out: set[int] = set()
-        self.fixed = self.names.index(answers.fixed) if answers.fixed in self.names else -1
+        #: The floating body that the user holds; -1: none.
+        self.held = self._held()
         self.plane: Plane
+
+    def _held(self) -> int:
+        body = self.names.index(self.answers.fixed) if self.answers.fixed in self.names else 0
+        first = int(self.model.body_jntadr[body])
+        free = first >= 0 and bool(self.model.jnt_type[first] == self.mujoco.mjtJoint.mjJNT_FREE)
+        return body if free else -1
 
     def name(self, kind: str, index: int) -> str:
         """The name that the model gives something, "" where it gives none."""
@@ -65,7 +72,7 @@ class MujocoModel:
     def joints_of(self, body: int) -> range:
         """The joints of a body; none of the one that is the frame."""
         first, count = int(self.model.body_jntadr[body]), int(self.model.body_jntnum[body])
-        return range(0) if body == self.fixed or not count else range(first, first + count)
+        return range(0) if body == self.held or not count else range(first, first + count)
 
     def leave_out(self) -> bool:
         """Leaves out bodies that float freely and belong to nothing.

@@ -4,13 +4,28 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from linkwright.importers.layout import Remarks
 from linkwright.importers.trees.tree import WORLD, Part, Tree
+from linkwright.words import _
+
+
+def held_at(tree: Tree, fixed: str | None, base: str, remarks: Remarks) -> Tree:
+    """A tree with the link as its frame that the user names; ``base``: the name of the link that is the frame now.
+
+    An error among the remarks where there is no such link.
+    """
+    if fixed is None or fixed == base:
+        return tree
+    if fixed not in tree.parts:
+        message = _("there is no link {name} that could be the frame", name=fixed)
+        remedy = _("name one of {names}", names=tuple(each for each, part in tree.parts.items() if not part.between))
+        remarks.remark("error", message, remedy, "import.no_such_frame")
+        return tree
+    return rebased(tree, fixed)
 
 
 def rebased(tree: Tree, base: str) -> Tree:
-    """A tree that is held at a part, with the joints from there to the world turned round; the same for others."""
-    if base not in tree.parts:
-        return tree
+    """A tree that is held at a part, with the joints from there to the world turned round."""
     above = {joint.child: joint for joint in tree.joints.values()}
     path, part = [], base
     while part != WORLD:
