@@ -103,6 +103,7 @@ def test_a_changed_length_keeps_comments_and_changes_the_stroke(tmp_path: Path) 
     assert stroke["value"] == pytest.approx(2.4 * crank, rel=1e-8) and stroke["unit"] == "m"
 
 
+@pytest.mark.rotating
 def test_points_of_a_drawing_follow_a_changed_length() -> None:
     text = lw.read_document(CRANK_ROCKER).text.replace(
         "assembly: {B: left}", "drawing: {A: [1 m, 0 m], B: [3.5 m, 2.45 m]}"
@@ -145,6 +146,7 @@ def test_the_best_coupler_is_that_of_the_closed_form() -> None:
     )
 
 
+@pytest.mark.rotating
 def test_demands_that_cannot_be_met_are_told_with_the_nearest_design() -> None:
     asked = {"vary": {"coupler.length": "3.4..3.6 m"}, "minimize": ["coupler.length"], "evaluations": 40}
     found = call("optimize_machine", model=CRANK_ROCKER, keep={"transmission_angle": "at least 89 deg"}, **asked)
@@ -156,6 +158,7 @@ def test_demands_that_cannot_be_met_are_told_with_the_nearest_design() -> None:
     )
 
 
+@pytest.mark.rotating
 def test_two_machines_side_by_side() -> None:
     text = lw.read_document(CRANK_ROCKER).text.replace("length: 3.5 m", "length: 3.8 m")
     found = call("compare_machines", models=[CRANK_ROCKER, text], output="rocker", metrics=["transmission_angle"])
@@ -249,6 +252,7 @@ def test_expectations_are_evaluated_where_a_model_has_some() -> None:
     assert call("check_model", model=CRANK_ROCKER).data["expectations"] == []
 
 
+@pytest.mark.rotating
 def test_files_of_other_programs_are_read_as_models(tmp_path: Path) -> None:
     """Lengths are those that stand in the file."""
     for name in ("open_linkage/coordinates_off.json", "linkage/four_bar.linkage2"):

@@ -120,6 +120,7 @@ def test_arguments_that_do_not_fit_are_findings(tool: str, arguments: dict[str, 
     ]
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("tool", "arguments"),
     [

@@ -84,6 +84,7 @@ def test_an_unknown_resource_is_refused() -> None:
     assert "kiet" in asked(read)
 
 
+@pytest.mark.rotating
 def test_long_work_tells_its_progress_and_ends_where_it_is_cancelled() -> None:
     told: list[float] = []
     asked_of = {
