@@ -24,6 +24,13 @@ ASKED: dict[str, list[str]] = {
     "export": ["gallery:kite", "--output", "OUT.csv"],
     "gallery": ["list", "kite"],
     "grade": ["exercise/key.json", "answers.csv"],
+    "import": [
+        '<linkage2><connector id="0" x="0" y="0" anchor="true" input="true" rpm="15"/>'
+        '<connector id="1" x="0" y="96"/><connector id="2" x="384" y="96"/>'
+        '<connector id="3" x="384" y="-96" anchor="true"/><Link id="0"><connector id="0"/><connector id="1"/></Link>'
+        '<Link id="1"><connector id="1"/><connector id="2"/></Link>'
+        '<Link id="2"><connector id="2"/><connector id="3"/></Link></linkage2>'
+    ],
     "machine": ["gallery:jaw_crusher_fourbar"],
     "metrics": ["gallery:kite"],
     "optimize": [

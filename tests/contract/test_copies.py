@@ -113,6 +113,13 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "torque table": lambda: lw.TorqueCurve.from_table([0.3, 1.0, 2.0], [1.0, 2.0, 3.0]),
     "torque expression": lambda: lw.TorqueCurve.from_function("100 + 20*sin(theta)"),
     "torque difference": lambda: lw.TorqueCurve.constant(3.0).minus(lw.TorqueCurve.from_function("1 + sin(theta)")),
+    "foreign": lambda: lw.read_foreign(
+        '<linkage2><connector id="0" x="0" y="0" anchor="true" input="true" rpm="15"/>'
+        '<connector id="1" x="0" y="96"/><Link id="0"><connector id="0"/><connector id="1"/></Link></linkage2>'
+    ),
+    "expectations": lambda: lw.expectations(dataclasses.replace(CRUSHER(), expect={"mobility": 1})),
+    "expectation": lambda: made("expectations").rows[0],
+    "loops in MuJoCo": lambda: lw.mujoco_loops(lw.load("gallery:kite"), steps=24),
     "balancing": lambda: lw.balance(lw.load("gallery:crank_rocker"), radius=0.1),
     "release": lambda: lw.release(CRUSHER(), at=0.5),
     "run": lambda: lw.run(lw.load("gallery:watt_sixbar"), duration=0.1),

@@ -31,7 +31,15 @@ FORCELESS = {
     "slider_crank_offset",
     "theo_jansen_leg",
 }
-PART_OF_A_TURN = {"change_point_fourbar", "geneva_wheel", "kite", "parallelogram", "peaucellier", "tangent_mechanism"}
+PART_OF_A_TURN = {
+    "change_point_fourbar",
+    "geneva_wheel",
+    "kite",
+    "lid_on_gas_strut",
+    "parallelogram",
+    "peaucellier",
+    "tangent_mechanism",
+}
 #: Driven by a slide, by several drivers.
 NOT_ONE_CRANK = {
     "double_slider",
