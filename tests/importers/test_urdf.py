@@ -121,3 +121,24 @@ def test_findings(text: str, code: str, severity: str) -> None:
     found = lw.read_foreign(text.replace("xacro:macro", "xacro:macro xmlns:xacro='x'"), format="urdf")
     assert (code, severity) in [(each.code, each.severity) for each in found.findings]
     assert bool(found.text) == (severity == "note")
+
+
+SIDE = "loops: [{{name: l, type: {}, link1: {{link: bed}}, link2: {{link: piston, rpy: [{}]}}, axis: [{}]}}]"
+
+
+@pytest.mark.parametrize(
+    ("beside", "code"),
+    [
+        (SIDE.format("prismatic", "0, 0, 0", "0, 0, 1"), "import.urdf_loop_plane"),
+        (SIDE.format("prismatic", "0, 0, 0", "0, 0, 0"), "import.urdf_loop_plane"),
+        (SIDE.format("fixed", "0, 1.5, 0", "1, 0, 0"), "import.urdf_loop_plane"),
+        (SIDE.format("screw", "0, 0, 0", "1, 0, 0"), "import.urdf_loop"),
+        ("drivers: [{joint: nothing, speed: 1}]", "import.no_such_driver"),
+        ("loops: [", "import.json"),
+    ],
+)
+def test_findings_about_the_file_beside(beside: str, code: str, tmp_path: Path) -> None:
+    (tmp_path / "r.urdf").write_text((FILES / "slider_crank.urdf").read_text())
+    (tmp_path / "r.loops.yaml").write_text(beside)
+    found = lw.read_foreign(tmp_path / "r.urdf")
+    assert code in codes(found) and not found.text

@@ -9,11 +9,12 @@ at 0. A driver has a ``joint`` with its ``speed`` (rad/s or m/s), or with ``time
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 from linkwright.importers.json_tree import Json
 from linkwright.importers.layout import Remarks
-from linkwright.importers.trees.plane import Plane
+from linkwright.importers.trees.plane import INCLINED, Plane
 from linkwright.importers.trees.rotations import Frame
 from linkwright.importers.trees.tree import Coupling, Motor, Part, Pin, Tree, TreeJoint, Weld
 from linkwright.importers.trees.urdf_model import ZERO, UrdfModel
@@ -109,7 +110,22 @@ def add_loops(model: UrdfModel, tree: Tree, plane: Plane, loops: list[LoopJoint]
             remarks.remark("error", message, remedy, "import.urdf_loop", line=loop.line, key=loop.name)
             continue
         frames = [model.frames[end.link].then(end.xyz, end.rpy) for end in loop.ends]
+        if not _planar(plane, loop, (frames[0], frames[1])):
+            message = _("the loop {name} turns or slides out of the plane", name=loop.name)
+            remedy = _("turn the axes of its ends about the normal of the plane alone")
+            remarks.remark("error", message, remedy, "import.urdf_loop_plane", line=loop.line, key=loop.name)
+            continue
         _add(model, tree, plane, loop, (frames[0], frames[1]))
+
+
+def _planar(plane: Plane, loop: LoopJoint, frames: tuple[Frame, Frame]) -> bool:
+    """Whether a weld or a slide stays in the plane; a pin does, whatever its axes are."""
+    if loop.kind in PINNED:
+        return True
+    turned = abs(plane.place(frames[0].turn @ frames[1].turn.T @ plane.right))
+    along = abs(plane.place(frames[0].turn @ loop.axis)) if len(loop.axis) == 3 else 0.0
+    length = math.hypot(*loop.axis)
+    return abs(turned - 1.0) < INCLINED and (loop.kind == "fixed" or abs(along - length) < INCLINED * length)
 
 
 def _add(model: UrdfModel, tree: Tree, plane: Plane, loop: LoopJoint, frames: tuple[Frame, Frame]) -> None:
@@ -120,7 +136,7 @@ def _add(model: UrdfModel, tree: Tree, plane: Plane, loop: LoopJoint, frames: tu
         return
     step = frames[0].turn @ frames[1].turn.T
     turn = plane.place(step @ plane.right)
-    turn /= abs(turn) or 1.0
+    turn /= abs(turn)
     if loop.kind == "prismatic":
         rider = f"{loop.name}.rider"
         along = plane.along(frames[0].turn @ loop.axis)

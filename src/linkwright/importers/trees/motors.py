@@ -17,8 +17,10 @@ def add_driver(tree: Tree, found: list[Motor], answers: Answers, remarks: Remark
     Without a motor the first joint at the world is asked for; without a speed the coordinate runs at 1 rad/s or m/s.
     """
     moving = [each.name for each in tree.joints.values() if each.turns is not None or each.slides is not None]
-    if answers.driver is not None and answers.driver not in moving:
-        message = _("there is no joint {name} that could be driven", name=answers.driver)
+    named = [*([] if answers.driver is None else [answers.driver]), *(each.joint for each in found)]
+    unknown = [each for each in named if each not in moving]
+    if unknown:
+        message = _("there is no joint {name} that could be driven", name=unknown[0])
         remedy = _("name one of {names}", names=tuple(moving))
         remarks.remark("error", message, remedy, "import.no_such_driver")
         return

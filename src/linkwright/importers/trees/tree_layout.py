@@ -191,6 +191,8 @@ class TreeLayout:
     def _drives(self) -> None:
         for motor in self.placed.tree.motors:
             joint = self.placed.tree.joints[motor.joint]
+            if joint not in self.placed.moving:
+                continue
             name = free_name(motor.name, self._taken(), "driver")
             if joint.turns is None:
                 drive = Drive(name, slide=self.slide_name(joint.name))
