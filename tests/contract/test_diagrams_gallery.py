@@ -56,6 +56,7 @@ NOT_ONE_CRANK = {
 UNEVEN = {"stephenson_sixbar_triad"}
 #: Over a cycle their loads take no work: there is no speed that they would fall from.
 NO_WORK = {
+    "andrews_squeezer",
     "chebyshev_lambda",
     "class_four_group",
     "crank_rocker",
