@@ -11,9 +11,9 @@ from linkwright.drivers.table import TableLaw
 from linkwright.errors import RequestError
 from linkwright.exporters.export import FORMATS, Format
 from linkwright.exporters.left_out import LeftOut
-from linkwright.exporters.linkage_elements import Elements, LinkElement, Ratio
-from linkwright.exporters.linkage_links import FRAME, Links
-from linkwright.exporters.linkage_slots import Slots
+from linkwright.exporters.linkage.elements import Elements, LinkElement, Ratio
+from linkwright.exporters.linkage.links import FRAME, Links
+from linkwright.exporters.linkage.slots import Slots
 from linkwright.exporters.results import Results
 from linkwright.joints.belt import BeltPair
 from linkwright.joints.lower_pair import RigidJoint

@@ -11,9 +11,9 @@ from linkwright.drivers.base import Driver
 from linkwright.errors import RequestError
 from linkwright.exporters.export import FORMATS, Format
 from linkwright.exporters.left_out import LeftOut
+from linkwright.exporters.pmks_plus.link import ShareForce, ShareJoint, share_address
+from linkwright.exporters.pmks_plus.machine import CM, FRAME, ShareParts
 from linkwright.exporters.results import Results
-from linkwright.exporters.share_link import ShareForce, ShareJoint, share_address
-from linkwright.exporters.share_machine import CM, FRAME, ShareParts
 from linkwright.joints.lower_pair import TurningJoint
 from linkwright.words import _
 

@@ -10,9 +10,9 @@ from pathlib import Path
 from linkwright.errors import Severity
 from linkwright.importers.foreign import READERS, Answers, ForeignFormat, ForeignText
 from linkwright.importers.layout import FRAME, Drive, Layout, Remarks, free_name
-from linkwright.importers.linkage_bodies import Bodies
-from linkwright.importers.linkage_file import DECIMALS, PIXEL, Connector, LinkageFile, LinkElement, read_file
-from linkwright.importers.linkage_guides import Gearing, Guides
+from linkwright.importers.linkage.bodies import Bodies
+from linkwright.importers.linkage.elements import DECIMALS, PIXEL, Connector, LinkageFile, LinkElement, read_file
+from linkwright.importers.linkage.guides import Gearing, Guides
 from linkwright.importers.reversing import turn_round
 from linkwright.importers.rigid import join_rigid
 from linkwright.words import Message, _

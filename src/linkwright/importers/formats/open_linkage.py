@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from linkwright.importers.designer import read_designer
 from linkwright.importers.foreign import READERS, Answers, ForeignFormat, ForeignText
 from linkwright.importers.json_tree import Json, key_in, parse_json
 from linkwright.importers.layout import Layout, Remarks
-from linkwright.importers.parametric import read_four_bar, read_leg
+from linkwright.importers.open_linkage.designer import read_designer
+from linkwright.importers.open_linkage.parametric import read_four_bar, read_leg
 from linkwright.words import _
 
 

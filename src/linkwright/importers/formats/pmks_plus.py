@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 
-from linkwright.exporters.share_link import ShareForce, ShareJoint
+from linkwright.exporters.pmks_plus.link import ShareForce, ShareJoint
 from linkwright.importers.foreign import READERS, Answers, ForeignFormat, ForeignText
 from linkwright.importers.layout import FRAME, Drive, Force, Layout, Remarks, free_name
 from linkwright.importers.model_text import RPM
+from linkwright.importers.pmks.share_bodies import ROUNDED, ShareBodies
+from linkwright.importers.pmks.share_records import ShareReader, link_in, oldest
 from linkwright.importers.reversing import turn_round
 from linkwright.importers.rigid import join_rigid
-from linkwright.importers.share_bodies import ROUNDED, ShareBodies
-from linkwright.importers.share_records import ShareReader, link_in, oldest
 from linkwright.words import _
 
 GRAVITY = -9.81

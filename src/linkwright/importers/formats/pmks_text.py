@@ -11,7 +11,7 @@ from linkwright.errors import Severity
 from linkwright.importers.foreign import READERS, Answers, ForeignFormat, ForeignText
 from linkwright.importers.layout import FRAME, Body, Drive, Layout, Remarks, Slide, Wheels, free_name
 from linkwright.importers.model_text import shortest
-from linkwright.importers.pmks_records import PmksFile, Record, is_ground, joint_of, pmks_file
+from linkwright.importers.pmks.text_records import PmksFile, Record, is_ground, joint_of, pmks_file
 from linkwright.importers.reversing import turn_round
 from linkwright.importers.rigid import join_rigid
 from linkwright.mechanism.link import Vec

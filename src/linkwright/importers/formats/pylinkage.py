@@ -9,11 +9,11 @@ from pathlib import Path
 
 from linkwright.files.source import read_bytes
 from linkwright.importers.foreign import READERS, Answers, ForeignFormat, ForeignText
-from linkwright.importers.joint_graph import read_graph
 from linkwright.importers.json_tree import Json, key_in, parse_json
 from linkwright.importers.layout import Layout, Remarks
-from linkwright.importers.pin_build import build
-from linkwright.importers.pylinkage_mechanism import read_mechanism
+from linkwright.importers.pylinkage.joint_graph import read_graph
+from linkwright.importers.pylinkage.mechanism import read_mechanism
+from linkwright.importers.pylinkage.pin_build import build
 from linkwright.words import _
 
 #: Types of joints before there were links in the file.

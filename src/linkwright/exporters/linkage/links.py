@@ -7,7 +7,7 @@ import math
 from linkwright.drivers.base import Driver
 from linkwright.errors import RequestError
 from linkwright.exporters.left_out import dynamics_left_out
-from linkwright.exporters.linkage_elements import Elements, LinkElement
+from linkwright.exporters.linkage.elements import Elements, LinkElement
 from linkwright.exporters.results import Results
 from linkwright.fields.colour import as_rgb
 from linkwright.joints.lower_pair import RigidJoint, SlidingJoint, TurningJoint

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 from urllib.parse import unquote
 
-from linkwright.exporters.share_link import (
+from linkwright.exporters.pmks_plus.link import (
     CORRECTED,
     DIGITS,
     ROOTS,

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from linkwright.exporters.linkage_links import FRAME, Links
+from linkwright.exporters.linkage.links import FRAME, Links
 from linkwright.joints.lower_pair import SlidingJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.mechanism.link import Vec

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 from linkwright.errors import Severity
-from linkwright.exporters.share_link import LENGTHS, Share, ShareJoint, ShareLink
+from linkwright.exporters.pmks_plus.link import LENGTHS, Share, ShareJoint, ShareLink
 from linkwright.importers.foreign import Answers
 from linkwright.importers.layout import FRAME, Body, Layout, Slide, free_name
+from linkwright.importers.pmks.share_records import ShareReader
 from linkwright.importers.rigid import join
-from linkwright.importers.share_records import ShareReader
 from linkwright.mechanism.link import Vec
 from linkwright.units import UNITS
 from linkwright.words import Message, _

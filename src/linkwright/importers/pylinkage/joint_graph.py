@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass, field
 
 from linkwright.importers.json_tree import Json
-from linkwright.importers.pin_plan import Driver, Joint, Line, Member, PinPlan
-from linkwright.importers.pylinkage_mechanism import USUAL_RATE, pair
+from linkwright.importers.pylinkage.mechanism import USUAL_RATE, pair
+from linkwright.importers.pylinkage.pin_plan import Driver, Joint, Line, Member, PinPlan
 from linkwright.words import _
 
 

@@ -10,8 +10,8 @@ from string import ascii_lowercase, ascii_uppercase
 import numpy as np
 
 from linkwright.errors import RequestError
+from linkwright.exporters.pmks_plus.link import Share, ShareJoint, ShareLink
 from linkwright.exporters.results import Results
-from linkwright.exporters.share_link import Share, ShareJoint, ShareLink
 from linkwright.fields.colour import as_rgb
 from linkwright.joints.lower_pair import RigidJoint, SlidingJoint, TurningJoint
 from linkwright.kinematics.placement import placements

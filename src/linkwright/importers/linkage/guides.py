@@ -7,8 +7,8 @@ import math
 from linkwright.core.data import Plain
 from linkwright.errors import Severity
 from linkwright.importers.layout import FRAME, Body, Remarks, Slide, Wheels, free_name
-from linkwright.importers.linkage_bodies import Bodies
-from linkwright.importers.linkage_file import PIXEL, Connector, Ratio
+from linkwright.importers.linkage.bodies import Bodies
+from linkwright.importers.linkage.elements import PIXEL, Connector, Ratio
 from linkwright.mechanism.link import Vec
 from linkwright.units import UNITS, number
 from linkwright.words import Message, _

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from linkwright.importers.layout import FRAME, Body, Layout, Remarks, free_name
-from linkwright.importers.linkage_file import Connector, LinkageFile, LinkElement
+from linkwright.importers.linkage.elements import Connector, LinkageFile, LinkElement
 from linkwright.words import _
 
 

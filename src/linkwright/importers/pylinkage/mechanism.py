@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from linkwright.importers.json_tree import Json
-from linkwright.importers.pin_plan import Driver, Joint, Line, Member, PinPlan, Tracked
+from linkwright.importers.pylinkage.pin_plan import Driver, Joint, Line, Member, PinPlan, Tracked
 from linkwright.mechanism.link import Vec
 from linkwright.words import _
 

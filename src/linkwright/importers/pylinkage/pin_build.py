@@ -7,7 +7,7 @@ from itertools import combinations
 
 from linkwright.importers.foreign import Answers
 from linkwright.importers.layout import FRAME, Body, Drive, Layout, Slide, free_name
-from linkwright.importers.pin_plan import Driver, Line, PinPlan
+from linkwright.importers.pylinkage.pin_plan import Driver, Line, PinPlan
 from linkwright.importers.rigid import join_rigid
 from linkwright.importers.settle import Constraint, Distance, OnLine, Turned, meeting, settle
 from linkwright.mechanism.link import Vec

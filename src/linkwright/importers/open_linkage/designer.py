@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
-from linkwright.importers.designer_project import FITTING, MM, USUAL_SPEED, Bar, Project, Stroke
 from linkwright.importers.foreign import Answers
 from linkwright.importers.json_tree import Json
 from linkwright.importers.layout import FRAME, Body, Drive, Force, Layout, Slide, free_name
 from linkwright.importers.model_text import DEGREE, shortest
+from linkwright.importers.open_linkage.project import FITTING, MM, USUAL_SPEED, Bar, Project, Stroke
 from linkwright.importers.rigid import join_rigid
 from linkwright.importers.settle import Apart, Distance, OnBar, OnLine
 from linkwright.mechanism.link import Vec

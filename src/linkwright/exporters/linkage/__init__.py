@@ -1,0 +1,1 @@
+"""Linkage files: elements, links and slots of a machine."""

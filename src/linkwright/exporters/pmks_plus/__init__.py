@@ -1,0 +1,1 @@
+"""Share links of PMKS+: a machine as its records, and records as a link."""

@@ -1,0 +1,1 @@
+"""Linkage files: their elements, bodies, and guides."""

@@ -1,0 +1,1 @@
+"""OpenLinkage: projects of the free designer, and machines by parameters."""

@@ -1,0 +1,1 @@
+"""PMKS and PMKS+: records of texts and of share links, and the bodies they make."""

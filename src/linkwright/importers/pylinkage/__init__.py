@@ -1,0 +1,1 @@
+"""pylinkage: mechanisms, and structures with or without dimensions."""
