@@ -21,8 +21,8 @@ from linkwright.exporters.urdf.mimics import Mimic, with_mimics
 from linkwright.files.write import flow
 from linkwright.words import _
 
-#: Samples of a law, and digits of gaps.
-SAMPLES, DIGITS = 241, 2
+#: Samples of a law, of which a cubic spline keeps nanometres, and digits of gaps.
+SAMPLES, DIGITS = 721, 2
 
 
 @dataclass(frozen=True)
