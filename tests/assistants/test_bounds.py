@@ -200,3 +200,13 @@ def test_what_tools_open_lies_in_the_folder_in_the_package_or_among_fonts(folder
         place = Path(path).resolve()
         assert not writes or place.is_relative_to(folder) or place.is_relative_to(cache) or path == os.devnull, path
         assert place.is_relative_to(folder) or not place.is_relative_to(tmp_path), path
+
+
+def test_a_foreign_model_leads_to_no_other_file(tmp_path: Path) -> None:
+    pytest.importorskip("mujoco")
+    (tmp_path / "secret.xml").write_text("<mujoco><worldbody/></mujoco>")
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    for names in ('<include file="../secret.xml"/>', '<asset><mesh name="m" file="/etc/passwd"/></asset>'):
+        found = call("check_model", folder, model=f"<mujoco>{names}<worldbody/></mujoco>")
+        assert "import.mjcf_files" in found.codes

@@ -166,6 +166,9 @@ def _source(source: str | Path) -> ForeignText:
             )
         )
     content, path = read_bytes(source), Path(source)
+    if not content.strip():
+        message, remedy = _("the file is empty"), _("choose another file")
+        raise ModelError([Finding("error", path.name, "", message, remedy, "empty")])
     text = content.decode("utf-8", errors="replace").removeprefix("\ufeff")
     return ForeignText(text, path.name, path.absolute().parent, content)
 

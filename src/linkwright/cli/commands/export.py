@@ -158,7 +158,7 @@ def run(options: Options, session: Session) -> int:
     settings |= {"force": options.force, "steps": options.steps, "language": session.language}
     export(solved, path, format=chosen, **settings)
     written = {"path": str(path), "format": chosen}
-    if report is not None:
+    if report is not None and (report.tables() or session.json):
         session.show_result(report, path, data=written)
     else:
         session.show_written(path, data={"ok": True, **written})

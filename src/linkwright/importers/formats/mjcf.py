@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 from linkwright.exporters.export import package
+from linkwright.filesystem import is_confined
 from linkwright.importers.foreign import READERS, Answers, ForeignFormat, ForeignText
 from linkwright.importers.layout import Layout, Remarks
 from linkwright.importers.trees.mujoco_model import NO_INERTIA, NO_MASS, MujocoModel
@@ -13,7 +15,7 @@ from linkwright.importers.trees.mujoco_tree import mujoco_tree
 from linkwright.importers.trees.rebased import held_at
 from linkwright.importers.trees.tree import WORLD
 from linkwright.importers.trees.tree_layout import tree_layout
-from linkwright.importers.xml_tree import Lines, parse_xml
+from linkwright.importers.xml_tree import Element, Lines, parse_xml
 from linkwright.words import _
 
 #: Mass (kg) and moment of inertia (kg·m²) of bodies without any, as MuJoCo demands some.
@@ -28,6 +30,10 @@ def read(source: ForeignText, answers: Answers, remarks: Remarks) -> Layout | No
     if root.tag != "mujoco":
         message = _("the root element is <{tag}>, not <mujoco>", tag=root.tag)
         remarks.remark("error", message, _("give a file of MuJoCo"), "import.mjcf_root", line=root.line)
+        return None
+    if is_confined() and (named := sorted({each.get("file") for each in _all(root) if each.get("file")})):
+        message = _("the model names other files, which are not read here: {names}", names=tuple(named))
+        remarks.remark("error", message, _("put the model into one file, without meshes"), "import.mjcf_files")
         return None
     mujoco = package("mujoco", _("models of MuJoCo"))
     compiled = _compiled(mujoco, source, remarks)
@@ -47,6 +53,13 @@ def recognises(source: ForeignText) -> bool:
 
 
 READERS.register("mjcf")(ForeignFormat(_("MuJoCo model"), (".xml", ".mjcf"), recognises, read))
+
+
+def _all(element: Element) -> Iterator[Element]:
+    """An element with all that it holds."""
+    yield element
+    for each in element.children:
+        yield from _all(each)
 
 
 def _compiled(mujoco: Any, source: ForeignText, remarks: Remarks) -> Any:
