@@ -10,10 +10,12 @@ from linkwright.exporters.export import package
 from linkwright.filesystem import is_confined
 from linkwright.importers.foreign import READERS, Answers, ForeignFormat, ForeignText
 from linkwright.importers.layout import Layout, Remarks
+from linkwright.importers.trees.mujoco_closures import Closures
 from linkwright.importers.trees.mujoco_model import NO_INERTIA, NO_MASS, MujocoModel
-from linkwright.importers.trees.mujoco_tree import mujoco_tree
+from linkwright.importers.trees.mujoco_motors import add_motors
+from linkwright.importers.trees.plane import plane_of
 from linkwright.importers.trees.rebased import held_at
-from linkwright.importers.trees.tree import WORLD
+from linkwright.importers.trees.tree import WORLD, Tree
 from linkwright.importers.trees.tree_layout import tree_layout
 from linkwright.importers.xml_tree import Element, Lines, parse_xml
 from linkwright.words import _
@@ -40,7 +42,7 @@ def read(source: ForeignText, answers: Answers, remarks: Remarks) -> Layout | No
     if compiled is None:
         return None
     read_model = MujocoModel(mujoco, compiled, Lines(root), answers, remarks)
-    tree = mujoco_tree(read_model)
+    tree = _tree(read_model)
     if tree is None:
         return None
     tree = held_at(tree, answers.fixed if read_model.held < 0 else None, WORLD, remarks)
@@ -53,6 +55,25 @@ def recognises(source: ForeignText) -> bool:
 
 
 READERS.register("mjcf")(ForeignFormat(_("MuJoCo model"), (".xml", ".mjcf"), recognises, read))
+
+
+def _tree(read: MujocoModel) -> Tree | None:
+    """The tree with its closures and motors; None, with an error among the remarks, where the model is spatial."""
+    if not read.leave_out():
+        return None
+    plane = plane_of(list(read.axes()), read.remarks)
+    if plane is None:
+        return None
+    read.plane = plane
+    tree = Tree(read.title(), gravity=read.gravity())
+    for body in read.bodies():
+        for joint in read.part(tree, body):
+            tree.joints[joint.name] = joint
+    tree.marks = read.marks(0)
+    read.start(tree)
+    Closures(read, tree).add()
+    add_motors(read, tree)
+    return tree
 
 
 def _all(element: Element) -> Iterator[Element]:

@@ -14,8 +14,7 @@ from dataclasses import dataclass, field
 
 from linkwright.importers.json_tree import Json
 from linkwright.importers.layout import Remarks
-from linkwright.importers.trees.plane import INCLINED, Plane
-from linkwright.importers.trees.rotations import Frame
+from linkwright.importers.trees.plane import INCLINED, Frame, Plane
 from linkwright.importers.trees.tree import Coupling, Motor, Part, Pin, Tree, TreeJoint, Weld
 from linkwright.importers.trees.urdf_model import ZERO, UrdfModel
 from linkwright.importers.xml_tree import Element

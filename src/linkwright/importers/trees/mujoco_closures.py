@@ -7,8 +7,7 @@ from typing import TypedDict
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.importers.trees.mujoco_kinds import is_one_of
-from linkwright.importers.trees.mujoco_model import MujocoModel
+from linkwright.importers.trees.mujoco_model import MujocoModel, is_one_of
 from linkwright.importers.trees.rigid_groups import joint_move
 from linkwright.importers.trees.tree import Coupling, Pin, Tether, Tree, Weld
 from linkwright.words import _

@@ -9,7 +9,6 @@ import numpy as np
 
 from linkwright.importers.foreign import Answers
 from linkwright.importers.layout import Remarks
-from linkwright.importers.trees.mujoco_kinds import is_one_of
 from linkwright.importers.trees.plane import Axis, Plane
 from linkwright.importers.trees.tree import WORLD, Part, Tree, TreeJoint
 from linkwright.importers.xml_tree import Lines
@@ -19,6 +18,11 @@ from linkwright.words import _
 GREY = (0.5, 0.5, 0.5)
 #: Masses (kg) and moments of inertia (kg·m²) below these were put in to make a model loadable.
 NO_MASS, NO_INERTIA = 2e-9, 4e-15
+
+
+def is_one_of(value: Any, *kinds: Any) -> bool:
+    """Whether a number of an array is one of an enumeration's kinds, which ``in`` would not see."""
+    return any(bool(value == each) for each in kinds)
 
 
 class MujocoModel:

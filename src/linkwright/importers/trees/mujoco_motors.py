@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from linkwright.importers.trees.motors import add_driver
-from linkwright.importers.trees.mujoco_kinds import is_one_of
-from linkwright.importers.trees.mujoco_model import MujocoModel
+from linkwright.importers.trees.mujoco_model import MujocoModel, is_one_of
 from linkwright.importers.trees.tree import Motor, Tree, TreeJoint
 from linkwright.words import _
 

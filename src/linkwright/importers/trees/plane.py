@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -15,6 +15,25 @@ from linkwright.words import _
 #: Inclination (rad) of axes up to which a model is planar as its numbers are rounded, and up to which it counts as
 #: planar with a warning.
 ROUNDED, INCLINED = 2e-5, 2e-3
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Axes in space: ``turn`` (3, 3) and ``origin`` (3,) m."""
+
+    turn: Floats = field(default_factory=lambda: np.eye(3))
+    origin: Floats = field(default_factory=lambda: np.zeros(3))
+
+    def place(self, point: Floats) -> Floats:
+        """A point of these axes in space."""
+        return np.asarray(self.origin + self.turn @ point)
+
+    def then(self, xyz: Sequence[float], rpy: Sequence[float]) -> Frame:
+        """Axes that lie in these ones, as URDF writes them: turned about x, then y, then z, which stay."""
+        from scipy.spatial.transform import Rotation
+
+        turned = Rotation.from_euler("xyz", rpy).as_matrix()
+        return Frame(self.turn @ turned, self.place(np.array(xyz, dtype=float)))
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.importers.layout import Remarks
-from linkwright.importers.trees.plane import Axis, Plane
-from linkwright.importers.trees.rotations import Frame
+from linkwright.importers.trees.plane import Axis, Frame, Plane
 from linkwright.importers.trees.tree import WORLD, Coupling, Part, Tree, TreeJoint
 from linkwright.importers.xml_tree import Element
 from linkwright.words import _
