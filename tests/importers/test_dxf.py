@@ -90,7 +90,7 @@ def test_what_is_fixed_is_asked() -> None:
         ([*LINES, *CIRCLES], {"speed": 1.0}, "import.dxf.speed", True),
         ([*LINES, *CIRCLES, entity("ARC", "0", _10=5, _20=5, _40=9, _50=0, _51=90)], {}, "import.dxf.arc", False),
         ([*LINES, *CIRCLES, line("0", 60, 0, 20, 90)], {}, "import.dxf.crossing", False),
-        ([*LINES, *CIRCLES, line("Layer1", 0, 0, 0, 30)], {}, "import.dxf.joined", False),
+        ([*LINES, *CIRCLES, line("Layer1", 0, 0, 0, 30)], {}, "import.joined", False),
         ([*LINES[:2], line("0", 80.003, 90, 120, 0), *CIRCLES], {}, "import.dxf.apart", False),
         (
             [*LINES, *CIRCLES, entity("SOLID", "0", _10=1, _20=1, _11=2, _21=1, _12=1, _22=2, _13=2, _23=2)],

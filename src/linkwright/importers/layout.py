@@ -113,12 +113,12 @@ class Force:
 
 @dataclass
 class Layout:
-    """What a reader found; ``places`` gives findings their place.
+    """What a reader found.
 
     ``unit``: of lengths in the text that is made of it; ``precision``: to which places are known, m (0: all digits
     count), within which numbers are written short; ``centre_precision``: likewise of mass centres. ``traced``:
     points whose paths the file asks for, "body.point". ``loads``: further loads as the section of a model file has
-    them. ``cycle``, ``assembly``: likewise.
+    them; ``cycle`` likewise.
     """
 
     name: str = ""

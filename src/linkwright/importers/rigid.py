@@ -5,21 +5,25 @@ from __future__ import annotations
 import math
 from itertools import combinations
 
-from linkwright.importers.layout import FRAME, Body, Layout
+from linkwright.importers.layout import FRAME, Body, Layout, Remarks
+from linkwright.words import _
 
 #: Keys of pairs of wheels that name links.
 WHEEL_KEYS = {"links", "carrier", "pinion", "rack"}
 
 
-def join_rigid(layout: Layout) -> dict[str, str]:
+def join_rigid(layout: Layout, remarks: Remarks) -> dict[str, str]:
     """Joins bodies that share two distinct points, and three bodies pinned in a triangle, as long as there are any.
 
-    What is joined with the frame becomes the frame. Returns the name that each body has now, of all that are gone.
+    What is joined with the frame becomes the frame; a note tells of each. Returns the name that each body has now, of
+    all that are gone.
     """
     gone: dict[str, str] = {}
     while (found := _rigid(layout)) is not None:
         kept, *others = sorted(found, key=lambda name: name != FRAME)
         for name in others:
+            message = _("{old} and {new} cannot move against each other and are one link", old=name, new=kept)
+            remarks.remark("note", message, "", "import.joined", key=layout.bodies[name].key or name)
             join(layout, kept, name)
             gone[name] = kept
     return {name: _last(gone, name) for name in gone}

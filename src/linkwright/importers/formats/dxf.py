@@ -71,10 +71,7 @@ class Skeleton:
             remedy = _("draw the pins of the frame as circles on the layer FRAME, or answer with --fixed LINK")
             self.remark("error", message, remedy, "import.dxf.no_frame")
             return None
-        gone = join_rigid(self.layout)
-        for old, new in gone.items():
-            message = _("{old} and {new} cannot move against each other and are one link", old=old, new=new)
-            self.remark("note", message, "", "import.dxf.joined", key=old)
+        gone = join_rigid(self.layout, self.remarks)
         self.told_apart()
         self.drive(gone)
         return self.layout

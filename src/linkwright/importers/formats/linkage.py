@@ -60,7 +60,7 @@ class Reader:
         self._drives()
         self._traced()
         self._drop_idle()
-        join_rigid(self.found)
+        join_rigid(self.found, self.remarks)
         self._drop_fixed()
         turn_round(self.found, self.remarks)
         return self.found

@@ -60,7 +60,7 @@ class Machine(ShareBodies):
         for force in self.share.forces:
             self.force(force)
         self.traces()
-        self.gone(join_rigid(self.made))
+        self.gone(join_rigid(self.made, self.remarks))
         self.made.gravity = (0.0, GRAVITY) if self.share.gravity else (0.0, 0.0)
         self.only_seen()
         if self.remarks.failed:

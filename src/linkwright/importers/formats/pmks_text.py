@@ -77,7 +77,7 @@ class Machine:
         self.drive()
         if self.remarks.failed:
             return None
-        join_rigid(self.made)
+        join_rigid(self.made, self.remarks)
         turn_round(self.made, self.remarks)
         return self.made
 

@@ -41,10 +41,7 @@ class Designer:
         self.make_bodies()
         self.make_guides()
         self.make_dimensions()
-        self.gone = join_rigid(self.layout)
-        for old, new in self.gone.items():
-            message = _("{old} and {new} cannot move against each other and are one link", old=old, new=new)
-            project.root.remark("note", message, "", "import.joined")
+        self.gone = join_rigid(self.layout, project.root.remarks)
         self.make_drives()
         self.make_tracers()
         self.make_loads()

@@ -56,10 +56,7 @@ class Builder:
         self.track(factor)
         self.make_bodies()
         self.make_guides()
-        gone = join_rigid(self.layout)
-        for old, new in gone.items():
-            message = _("{old} and {new} cannot move against each other and are one link", old=old, new=new)
-            self.plan.root.remark("note", message, "", "import.joined")
+        gone = join_rigid(self.layout, self.plan.root.remarks)
         self.bodies = {member: gone.get(name, name) for member, name in self.bodies.items()}
         self.make_drives()
         self.say_unit()
