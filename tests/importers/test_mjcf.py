@@ -171,3 +171,13 @@ def test_the_spring_of_a_slide_is_linear_along_it() -> None:
     motion = lw.solve_motion(lw.read_foreign(text, speed=0.25).mechanism, times=[0.0, 0.3])
     pushed = 50 * (np.array([0.0, 0.075]) - 0.02) + 3 * 0.25
     assert lw.solve_forces(motion).driver_effort("push") == pytest.approx(pushed)
+
+
+def test_forces_without_a_word_for_them_are_told() -> None:
+    text = """
+    <mujoco><worldbody><geom type="plane" size="1 1 1"/>
+      <body name="crank"><joint name="j" axis="0 0 1" frictionloss="0.3" armature="0.01"/>
+        <geom type="capsule" size="0.01" fromto="0 0 0 0.1 0 0"/></body></worldbody></mujoco>"""
+    found = {each.code: each for each in lw.read_foreign(text).remarks}
+    assert {"import.mjcf_friction", "import.mjcf_armature", "import.mjcf_contact"} <= found.keys()
+    assert found["import.mjcf_friction"].where == "<text>:3:1" and found["import.mjcf_friction"].key == "j"

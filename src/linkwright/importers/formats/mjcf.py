@@ -11,6 +11,7 @@ from linkwright.filesystem import is_confined
 from linkwright.importers.foreign import READERS, Answers, ForeignFormat, ForeignText
 from linkwright.importers.layout import Layout, Remarks
 from linkwright.importers.trees.mujoco_closures import Closures
+from linkwright.importers.trees.mujoco_left_out import tell_left_out
 from linkwright.importers.trees.mujoco_model import NO_INERTIA, NO_MASS, MujocoModel
 from linkwright.importers.trees.mujoco_motors import add_motors
 from linkwright.importers.trees.plane import plane_of
@@ -73,6 +74,7 @@ def _tree(read: MujocoModel) -> Tree | None:
     read.start(tree)
     Closures(read, tree).add()
     add_motors(read, tree)
+    tell_left_out(read)
     return tree
 
 

@@ -16,7 +16,7 @@ def add_motors(read: MujocoModel, tree: Tree) -> None:
     found: dict[str, Motor] = {}
     for actuator in range(read.model.nu):
         name = read.name("ACTUATOR", actuator) or f"actuator{actuator}"
-        joint = _joint(read, actuator)
+        joint = driven_joint(read, actuator)
         if joint is None or joint not in tree.joints:
             message = _("the actuator {name} acts on no joint and is left out", name=name)
             remedy = _("write what it does as a load")
@@ -27,7 +27,7 @@ def add_motors(read: MujocoModel, tree: Tree) -> None:
     add_driver(tree, list(found.values()), read.answers, read.remarks)
 
 
-def _joint(read: MujocoModel, actuator: int) -> str | None:
+def driven_joint(read: MujocoModel, actuator: int) -> str | None:
     """The joint on which an actuator acts."""
     kinds, model = read.mujoco.mjtTrn, read.model
     kind, target = model.actuator_trntype[actuator], int(model.actuator_trnid[actuator][0])
