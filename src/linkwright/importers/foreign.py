@@ -201,4 +201,9 @@ def _format_of(source: ForeignText) -> str:
         message = _("{name}: it may be {names}", code="import.format_unclear", name=name, names=tuple(fitting))
         raise RequestError(with_remedy(message, _("say which with --format, or format=")))
     message = _("{name}: this is no format that is read here", code="import.no_format", name=name)
-    raise RequestError(with_remedy(message, _("formats are {names}", names=tuple(READERS))))
+    raise RequestError(
+        with_remedy(
+            message,
+            _("name one with --format, or format=, to see what is wrong in it: {names}", names=tuple(READERS)),
+        )
+    )
