@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Literal, get_args
 
 from linkwright.words import Message, Translate, _, pgettext
 
-#: Tasks, for help that must not import what solves them.
-TASK_NAMES = (
+#: Tasks, as a type and as names, for help that must not import what solves them.
+TaskName = Literal[
     "slider_crank",
     "crank_rocker",
     "quick_return",
@@ -20,7 +21,8 @@ TASK_NAMES = (
     "path",
     "exact_path",
     "free_curve",
-)
+]
+TASK_NAMES: tuple[str, ...] = get_args(TaskName)
 #: Types of linkages.
 TYPE_NAMES: Mapping[str, Message] = {
     "crank_rocker": _("crank-rocker"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from math import degrees
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from pydantic import Field
 
@@ -13,6 +13,7 @@ from linkwright.assistants.answers import Answer, Answered, NextAction, number, 
 from linkwright.assistants.failures import entries
 from linkwright.assistants.tool import Desk, Overwrite, SaveAs
 from linkwright.errors import Finding, RequestError
+from linkwright.synthesis.names import TaskName
 from linkwright.synthesis.result import Candidate, Synthesis
 from linkwright.synthesis.tasks import asked_in, synthesize, tasks
 from linkwright.words import _
@@ -20,20 +21,6 @@ from linkwright.words.message import code_of, in_language
 
 #: Candidates of one answer at most.
 MOST = 12
-Task = Literal[
-    "slider_crank",
-    "crank_rocker",
-    "quick_return",
-    "drag_link",
-    "toggle",
-    "dwell",
-    "straight_line",
-    "function",
-    "motion",
-    "path",
-    "exact_path",
-    "free_curve",
-]
 
 
 class CandidateEntry(Answered):
@@ -62,7 +49,7 @@ class SynthesisAnswer(Answer):
 def synthesize_machine(
     desk: Desk,
     task: Annotated[
-        Task,
+        TaskName,
         Field(
             description=(
                 "What is wanted. slider_crank: a stroke; crank_rocker: a swing angle with a quick-return ratio; "
