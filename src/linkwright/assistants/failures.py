@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 from linkwright.assistants.answers import FindingEntry, NextAction
 from linkwright.errors import Finding, LinkwrightError, ModelError
 from linkwright.words import _
-from linkwright.words.message import in_language
+from linkwright.words.message import code_of, in_language
 
 #: Findings that are listed.
 MOST = 40
@@ -42,6 +43,16 @@ def of_error(error: LinkwrightError) -> list[Finding]:
     if isinstance(error, ModelError):
         return list(error.findings)
     return [Finding("error", "", "", error.sentence, "", error.code)]
+
+
+def as_warnings(error: LinkwrightError) -> list[Finding]:
+    """The findings of an error where there is a result all the same."""
+    return [replace(each, severity="warning") for each in of_error(error)]
+
+
+def of_notes(sentences: Iterable[str]) -> list[Finding]:
+    """The notes of a result as findings."""
+    return [Finding("note", "", "", each, "", code_of(each)) for each in sentences]
 
 
 def entry(finding: Finding, language: str = "en") -> FindingEntry:

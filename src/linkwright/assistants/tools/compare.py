@@ -7,12 +7,11 @@ from typing import Annotated
 from pydantic import Field
 
 from linkwright.assistants.answers import Answer, Answered, NextAction, number, numbers
-from linkwright.assistants.failures import entries
+from linkwright.assistants.failures import entries, of_notes
 from linkwright.assistants.tool import Desk
 from linkwright.designs.compare import compare
-from linkwright.errors import Finding
 from linkwright.words import _
-from linkwright.words.message import code_of, in_language
+from linkwright.words.message import in_language
 
 
 class CriterionEntry(Answered):
@@ -99,7 +98,7 @@ def compare_machines(
     return ComparisonAnswer(
         ok=True,
         summary=in_language(summary, desk.language),
-        findings=entries((Finding("note", "", "", each, "", code_of(each)) for each in found.notes), desk.language),
+        findings=entries(of_notes(found.notes), desk.language),
         next=[NextAction(tool="write_report", why="a report of the machine that is chosen")],
         labels=list(found.labels),
         criteria=[

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import base64
-from dataclasses import replace
 from typing import Annotated, Literal
 
 from pydantic import Field
 
 from linkwright.assistants.answers import Answer, NextAction
-from linkwright.assistants.failures import entries, of_error
+from linkwright.assistants.failures import as_warnings, entries, of_notes
 from linkwright.assistants.positions import positions_at
 from linkwright.assistants.tool import Desk, Model
 from linkwright.core.arguments import DRAWING_STEPS
@@ -18,7 +17,7 @@ from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.plotting.drawing.draw import draw
 from linkwright.words import _
-from linkwright.words.message import code_of, in_language
+from linkwright.words.message import in_language
 
 #: Characters of SVG that are given; dots per inch of curves.
 LONGEST, DOTS = 120_000, 100.0
@@ -100,21 +99,14 @@ def draw_machine(
         dimensions=dimensions,
         language=desk.language,
     )
-    findings = [
-        *findings,
-        *(Finding("note", "", "", each, "", code_of(each)) for each in (*motion.notes, *drawing.notes)),
-    ]
+    findings = [*findings, *of_notes((*motion.notes, *drawing.notes))]
     if not motion.complete and motion.ok.any():
-        refusal = motion.refusal()
-        findings.append(Finding("warning", "", "", refusal.sentence, "", refusal.code))
+        findings += as_warnings(motion.refusal())
     images = [drawing.png(width=width)]
     if curves != "none":
-        from linkwright.plotting.diagrams.base import plot
-
-        try:
-            images.append(plot(mechanism, curves, language=desk.language).content(".png", dpi=DOTS))
-        except LinkwrightError as error:
-            findings += [replace(each, severity="warning") for each in of_error(error)]
+        more, hindered = _curves(mechanism, curves, desk.language)
+        images += more
+        findings += hindered
     if svg and len(drawing.svg) > LONGEST:
         findings.append(
             Finding("warning", "", "svg", _("the SVG text is too long for an answer"), "", "assistants.long")
@@ -129,6 +121,16 @@ def draw_machine(
     )
     found.pictures.extend(base64.b64encode(each).decode() for each in images)
     return found
+
+
+def _curves(mechanism: Mechanism, kind: str, language: str) -> tuple[list[bytes], list[Finding]]:
+    """The picture of curves over the cycle, or what hinders it."""
+    from linkwright.plotting.diagrams.base import plot
+
+    try:
+        return [plot(mechanism, kind, language=language).content(".png", dpi=DOTS)], []
+    except LinkwrightError as error:
+        return [], as_warnings(error)
 
 
 def _place(mechanism: Mechanism, at: str) -> tuple[dict[str, float] | None, float | None]:

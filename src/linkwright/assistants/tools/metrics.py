@@ -9,13 +9,13 @@ from pydantic import Field
 from linkwright.analysis.base import METRICS, MetricValue
 from linkwright.analysis.evaluate import applicable_metrics
 from linkwright.assistants.answers import Answer, Answered, NextAction, number
-from linkwright.assistants.failures import entries, of_error
+from linkwright.assistants.failures import entries, of_error, of_notes
 from linkwright.assistants.tool import Desk, Model
 from linkwright.core.arguments import STEPS
 from linkwright.errors import Finding
 from linkwright.units import si_unit
 from linkwright.words import _
-from linkwright.words.message import code_of, in_language
+from linkwright.words.message import in_language
 
 #: Numbers of one answer at most.
 MOST = 80
@@ -73,7 +73,7 @@ def get_metrics(
     mechanism, findings = desk.source(model).mechanism()
     found = applicable_metrics(mechanism, names or None, forces=None, steps=STEPS, failures="mark")
     values = list(found.table)
-    findings = [*findings, *_remarks(values), *(_note(each) for each in (*found.inapplicable, *found.table.notes))]
+    findings = [*findings, *_remarks(values), *of_notes((*found.inapplicable, *found.table.notes))]
     if found.error is not None:
         findings += of_error(found.error)
     summary = _("{name}: {count} design numbers over the cycle", name=mechanism.name, count=len(values))
@@ -111,7 +111,3 @@ def _remarks(values: list[MetricValue]) -> list[Finding]:
         for remark in each.warnings
     }
     return list(found.values())
-
-
-def _note(sentence: str) -> Finding:
-    return Finding("note", "", "", sentence, "", code_of(sentence))

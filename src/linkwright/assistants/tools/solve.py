@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import Field
 
 from linkwright.assistants.answers import Answer, Answered, NextAction, numbers
-from linkwright.assistants.failures import entries, of_error
+from linkwright.assistants.failures import entries, of_error, of_notes
 from linkwright.assistants.positions import positions_at
 from linkwright.assistants.released import RestEntry, released, rests
 from linkwright.assistants.tool import Desk, Model
@@ -201,14 +201,12 @@ def _unreached(motion: Motion, rows: Indices) -> list[Finding]:
     """Why positions are not reached, each reason once."""
     reasons = dict.fromkeys(motion.outcomes[row].sentence for row in rows if not motion.ok[row])
     if not motion.ok.any():
-        refusal = motion.refusal()
-        return [Finding("error", "", "", refusal.sentence, "", refusal.code)]
+        return of_error(motion.refusal())
     return [Finding("warning", "", "", each, "", getattr(each, "code", "") or "motion.refused") for each in reasons]
 
 
 def _notes(motion: Motion, forces: Forces | None) -> list[Finding]:
-    notes = (*motion.notes, *(forces.notes if forces is not None else ()))
-    return [Finding("note", "", "", each, "", getattr(each, "code", "")) for each in notes]
+    return of_notes((*motion.notes, *(forces.notes if forces is not None else ())))
 
 
 def _picked(

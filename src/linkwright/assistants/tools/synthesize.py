@@ -10,14 +10,14 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from linkwright.assistants.answers import Answer, Answered, NextAction, number, short
-from linkwright.assistants.failures import entries
+from linkwright.assistants.failures import entries, of_notes
 from linkwright.assistants.tool import Desk, Overwrite, SaveAs
-from linkwright.errors import Finding, RequestError
+from linkwright.errors import RequestError
 from linkwright.synthesis.names import TaskName
 from linkwright.synthesis.result import Candidate, Synthesis
 from linkwright.synthesis.tasks import asked_in, synthesize, tasks
 from linkwright.words import _
-from linkwright.words.message import code_of, in_language
+from linkwright.words.message import in_language
 
 #: Candidates of one answer at most.
 MOST = 12
@@ -100,7 +100,7 @@ def synthesize_machine(
     return SynthesisAnswer(
         ok=bool(text),
         summary=_summary(found, desk.language),
-        findings=entries((Finding("note", "", "", each, "", code_of(each)) for each in found.notes), desk.language),
+        findings=entries(of_notes(found.notes), desk.language),
         next=[NextAction(tool="get_metrics", why="design numbers of the candidate: call it with its text as model")],
         candidates=[_entry(rank, each) for rank, each in enumerate(found.candidates[:MOST], 1)],
         found=len(found),
