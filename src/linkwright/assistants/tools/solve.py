@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from contextlib import suppress
-from typing import Annotated, Literal
+from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
 from pydantic import Field
@@ -119,29 +119,18 @@ def solve_machine(
         )
     if under == "rest":
         return _at_rest(mechanism, findings, desk.language)
-    ending: Message | None = None
-    forces: Forces | None
-    if under == "forces":
-        course = released(mechanism, positions)
-        forces, motion, ending = course.forces, course.forces.motion, course.ending
-        rows, more = np.arange(motion.steps), [*course.events]
-    else:
-        motion, rows = _motion(mechanism, at, positions)
-        forces, more = _forces(motion, columns, static)
-    findings = [*findings, *more, *_unreached(motion, rows), *_notes(motion, forces)]
+    course = (
+        _let_go(mechanism, positions) if under == "forces" else _driven(mechanism, at, positions, columns, static)
+    )
+    motion, rows, forces = course.motion, course.rows, course.forces
+    notes = (*motion.notes, *(forces.notes if forces is not None else ()))
+    findings = [*findings, *course.findings, *_unreached(motion, rows), *of_notes(notes)]
     results = results_of(motion, forces)
     picked = _picked(mechanism, motion, forces, columns, results)
     listed = [] if len(picked) == len(results) else [each.column for each in results][:LISTED]
-    errors = [each for each in findings if each.severity == "error"]
-    summary = _(
-        "{name}: {reached} of {count} positions reached",
-        name=mechanism.name,
-        reached=int(motion.ok[rows].sum()),
-        count=len(rows),
-    )
     return SolveAnswer(
-        ok=not errors,
-        summary=in_language(ending or summary, desk.language),
+        ok=not any(each.severity == "error" for each in findings),
+        summary=in_language(course.summary, desk.language),
         findings=entries(findings, desk.language),
         next=[NextAction(tool="get_metrics", why="extreme values over the cycle, exact between positions")],
         columns=[
@@ -165,6 +154,36 @@ def _at_rest(mechanism: Mechanism, findings: list[Finding], language: str) -> So
         next=[NextAction(tool="draw_machine", why="a picture of one of these positions: at=its input")],
         rests=found,
     )
+
+
+class _Course(NamedTuple):
+    """A motion and the rows of it that are shown, its forces, what hinders them or happens, and a summary."""
+
+    motion: Motion
+    rows: Indices
+    forces: Forces | None
+    findings: Iterable[Finding]
+    summary: Message
+
+
+def _let_go(mechanism: Mechanism, positions: int) -> _Course:
+    """The run under forces, over its time."""
+    found = released(mechanism, positions)
+    motion = found.forces.motion
+    return _Course(motion, np.arange(motion.steps), found.forces, found.events, found.ending)
+
+
+def _driven(mechanism: Mechanism, at: str, positions: int, columns: list[str], static: bool) -> _Course:
+    """The motion by the laws of the drivers."""
+    motion, rows = _motion(mechanism, at, positions)
+    forces, hindered = _forces(motion, columns, static)
+    summary = _(
+        "{name}: {reached} of {count} positions reached",
+        name=mechanism.name,
+        reached=int(motion.ok[rows].sum()),
+        count=len(rows),
+    )
+    return _Course(motion, rows, forces, hindered, summary)
 
 
 def _motion(mechanism: Mechanism, at: str, positions: int) -> tuple[Motion, Indices]:
@@ -203,10 +222,6 @@ def _unreached(motion: Motion, rows: Indices) -> list[Finding]:
     if not motion.ok.any():
         return of_error(motion.refusal())
     return [Finding("warning", "", "", each, "", getattr(each, "code", "") or "motion.refused") for each in reasons]
-
-
-def _notes(motion: Motion, forces: Forces | None) -> list[Finding]:
-    return of_notes((*motion.notes, *(forces.notes if forces is not None else ())))
 
 
 def _picked(
