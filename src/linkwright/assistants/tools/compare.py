@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from collections.abc import Mapping
+from typing import Annotated, Any
 
 from pydantic import Field
 
@@ -87,7 +88,6 @@ def compare_machines(
     """
     machines = [desk.source(each).mechanism()[0] for each in models]
     found = compare(machines, metrics=metrics or None, weights=weights or None, output=output or None)
-    data = found.data()
     best = found.ranking[0]
     summary = _(
         "{count} machines; first: {label}, score {score}",
@@ -101,16 +101,17 @@ def compare_machines(
         findings=entries(of_notes(found.notes), desk.language),
         next=[NextAction(tool="write_report", why="a report of the machine that is chosen")],
         labels=list(found.labels),
-        criteria=[
-            CriterionEntry(
-                name=each["name"],
-                unit=each["unit"],
-                better=each["better"] or "",
-                values=numbers(each["values"]),
-                best=each["best"],
-            )
-            for each in data["metrics"]
-        ],
+        criteria=[_criterion(each) for each in found.data()["metrics"]],
         ranking=[RankEntry(place=each.place, label=each.label, score=number(each.score)) for each in found.ranking],
         evaluation=found.evaluation(desk.language),
+    )
+
+
+def _criterion(each: Mapping[str, Any]) -> CriterionEntry:
+    return CriterionEntry(
+        name=each["name"],
+        unit=each["unit"],
+        better=each["better"] or "",
+        values=numbers(each["values"]),
+        best=each["best"],
     )

@@ -90,7 +90,8 @@ def read_schema(
     if kind and kind not in kinds:
         raise _unknown("kind", kind, list(kinds))
     chosen = kinds[kind] if kind else shape
-    fits = len(json.dumps(chosen)) <= LONGEST and (kind != "" or len(kinds) < 2)
+    many = len(kinds) > 1 and not kind
+    fits = not many and len(json.dumps(chosen)) <= LONGEST
     return SchemaAnswer(
         ok=True,
         summary=in_language(
@@ -103,9 +104,9 @@ def read_schema(
                 why="the schema of one kind",
             )
         ]
-        if len(kinds) > 1 and not kind
+        if many
         else [],
-        sections=[_entry(name, each) for name, each in kinds.items()] if not kind and len(kinds) > 1 else [],
+        sections=[_entry(name, each) for name, each in kinds.items()] if many else [],
         json_schema=chosen if fits else {},
     )
 
