@@ -27,19 +27,17 @@ def conditions_of(
 ) -> RunConditions:
     """How a run begins and ends: what is given goes before the section ``run`` of the file."""
     asked = mechanism.run or RunConditions()
+    if duration is None and turns is None and until is None:
+        duration, turns, until = asked.duration, asked.turns, asked.until
     return RunConditions(
         at={**asked.at, **_by_name(mechanism, at)},
         speed={**asked.speed, **_by_name(mechanism, speed)},
-        duration=duration if _any(duration, turns, until) else asked.duration,
-        turns=turns if _any(duration, turns, until) else asked.turns,
-        until=until if _any(duration, turns, until) else asked.until,
+        duration=duration,
+        turns=turns,
+        until=until,
         at_most=asked.at_most if at_most is None else at_most,
         prescribed=asked.prescribed if prescribed is None else tuple(prescribed),
     )
-
-
-def _any(*values: object) -> bool:
-    return any(each is not None for each in values)
 
 
 def _by_name(mechanism: Mechanism, values: float | Mapping[str, float] | None) -> dict[str, float]:
