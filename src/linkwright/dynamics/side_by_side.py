@@ -14,8 +14,8 @@ from linkwright.dynamics.description import CLOSING_STEPS
 from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.loop import Action, Event, Layout, Loop, Motions, Outcome
 from linkwright.dynamics.run import STEADY
+from linkwright.dynamics.surfaces import Surface, surfaces_of
 from linkwright.dynamics.switches import gap_name, gap_rate_name, switch_name
-from linkwright.dynamics.system import Surface, surfaces_of
 from linkwright.formula.program import Program
 from linkwright.formula.trace import Scalar, absolute, minimum, sqrt
 

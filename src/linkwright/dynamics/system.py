@@ -10,15 +10,14 @@ from typing import Literal, NamedTuple, get_args
 import numpy as np
 
 from linkwright.core.arrays import Floats, Indices
-from linkwright.core.outputs import Output
 from linkwright.dynamics.change_points import Bridged
 from linkwright.dynamics.complementarity import one_way, shares
 from linkwright.dynamics.description import CLOSED, CLOSING_STEPS
-from linkwright.dynamics.equation import EquationOfMotion
 from linkwright.dynamics.right_side import RightSide
 from linkwright.dynamics.singular import Stretch
 from linkwright.dynamics.site import near_name
 from linkwright.dynamics.stops import contact_name
+from linkwright.dynamics.surfaces import surfaces_of
 from linkwright.dynamics.switches import gap_name, gap_rate_name, switch_name
 
 #: A rate is zero below this share of the largest one seen; a jump of accelerations, below this share of their size.
@@ -32,25 +31,6 @@ StopOutput = Literal["stop", "stop_rate", "stop_second"]
 STOP_OUTPUTS: tuple[StopOutput, ...] = get_args(StopOutput)
 #: Surfaces, each with its side where the first is above, that stick and slip together.
 Group = tuple[tuple[int, float], ...]
-
-
-@dataclass(frozen=True)
-class Surface:
-    """Where comparisons go over together: the switches by number, with 1 for those that hold above, -1 below.
-
-    ``by_rate``: its gap goes by rates, so that forces decide on which side it goes on; ``owners``: loads and joints
-    whose forces switch there; ``follows``: its gap goes by the sides of others, so that it jumps with them.
-    """
-
-    members: tuple[tuple[int, float], ...]
-    by_rate: bool
-    owners: tuple[str, ...]
-    follows: bool = False
-
-    @property
-    def number(self) -> int:
-        """The switch whose gap is that of the surface, but for its sign."""
-        return self.members[0][0]
 
 
 @dataclass
@@ -487,36 +467,3 @@ def _way(share: float, most: float) -> int:
     if share <= 0.0:
         return -1
     return 1 if share >= most else 0
-
-
-def surfaces_of(equation: EquationOfMotion) -> list[Surface]:
-    """The switches, those together whose comparisons differ by sense alone."""
-    lines = equation.switches.trace.lines
-    rates = {f"qd:{name}" for name in equation.free}
-    found: dict[tuple[int, ...], list[tuple[int, float]]] = {}
-    for number, line in enumerate(equation.switches.lines):
-        low, high = lines[line][1:]
-        found.setdefault((min(low, high), max(low, high)), []).append((number, 1.0 if low < high else -1.0))
-    owners = _owners(equation)
-    surfaces = []
-    for members in found.values():
-        gap = equation.program([gap_name(members[0][0])])
-        own = tuple(dict.fromkeys(owner for number, _sign in members for owner in owners[number]))
-        by_rate = not rates.isdisjoint(gap.positions)
-        follows = not by_rate and not set(equation.switches.names).isdisjoint(gap.positions)
-        surfaces.append(Surface(tuple(members), by_rate, own, follows))
-    return surfaces
-
-
-def _owners(equation: EquationOfMotion) -> list[list[str]]:
-    """The loads and the joints that rub whose forces go by each switch."""
-    trace, lines = equation.switches.trace, equation.switches.lines
-    found: list[list[str]] = [[] for _line in lines]
-    for name, wrenches in equation.forces.forces.wrenches.items():
-        values = [value for each in wrenches for value in (each.force.x, each.force.y, each.torque)]
-        needed = set(trace.needed([trace.lift(value) for value in values]))
-        owner = name if name in equation.mechanism.loads else Output.of_row(name).owner
-        for number, line in enumerate(lines):
-            if line in needed and owner not in found[number]:
-                found[number].append(owner)
-    return found
