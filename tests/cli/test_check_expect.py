@@ -6,22 +6,9 @@ from pathlib import Path
 
 import pytest
 from tests.cli.commands import data, shown
+from tests.features.piston import PISTON
 
-CRANK = """\
-format: 1
-name: Slider-crank
-frame: {points: {O: [0 mm, 0 mm]}}
-links:
-  crank: {points: [O, A], length: 60 mm}
-  rod: {points: [A, B], length: 200 mm}
-  piston: {points: [B]}
-joints:
-  cylinder: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: piston, at: B}
-assembly: {B: forward}
-driver: {turn: crank, about: O, speed: 1500 rpm}
-expect:
-  stroke: 120 mm ± 0.1 mm
-"""
+CRANK = PISTON.replace("60 rpm", "1500 rpm") + "expect:\n  stroke: 120 mm ± 0.1 mm\n"
 
 
 @pytest.fixture

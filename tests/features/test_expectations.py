@@ -6,6 +6,7 @@ import math
 from pathlib import Path
 
 import pytest
+from tests.features.piston import PISTON
 
 import linkwright as lw
 
@@ -20,19 +21,6 @@ links:
   rocker: {points: [O2, B], length: 250 mm, mass: 2 kg, inertia: 0.01 kg·m²}
 assembly: {B: left}
 driver: {turn: crank, about: O1, speed: 60 rpm}
-"""
-PISTON = """\
-format: 1
-name: Slider-crank
-frame: {points: {O: [0 mm, 0 mm]}}
-links:
-  crank: {points: [O, A], length: 60 mm}
-  rod: {points: [A, B], length: 200 mm}
-  piston: {points: [B]}
-joints:
-  cylinder: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: piston, at: B}
-assembly: {B: forward}
-driver: {turn: crank, about: O, speed: 60 rpm}
 """
 #: Angle of the rocker where crank and coupler are in one line, stretched and folded.
 LOW, HIGH = (180.0 - math.degrees(math.acos((185e3 - d * d) / 175e3)) for d in (400, 200))
