@@ -36,8 +36,6 @@ class Designer:
         self.layout = Layout(precision=1e-10 * project.size)
         fixed = [key for key in project.joints if project.fixed(key)]
         self.layout.frame.places |= {project.names[key]: project.places[key] for key in fixed}
-        #: Names and joints of the bodies of the file, by their ids.
-        self.named: dict[str, tuple[str, list[str]]] = {}
         self.make_bodies()
         self.make_guides()
         self.make_dimensions()
@@ -58,7 +56,6 @@ class Designer:
             joints = [joint.word for joint in each.each("jointIds")]
             if self.project.known(each, *joints) and joints:
                 name = free_name(each.text("id"), self.layout.bodies, "B")
-                self.named[each.text("id")] = name, joints
                 self.body(name, *joints, key=each.text("id"))
 
     def body(self, name: str, *joints: str, length: float | None = None, key: str = "") -> Body:
