@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
+from linkwright import units
 from linkwright.core.data import Plain
 from linkwright.errors import Severity
 from linkwright.importers.dxf_entities import DrawingFile, Entity, away_from, crossing, extent, read_entities, scaled
@@ -25,8 +26,6 @@ _ROLE = re.compile(r"(link|frame|guide|block|gear|driver)(?:[_\- ]+(.*))?", re.I
 _RATE = re.compile(r"([-+]?\d+(?:\.\d*)?)\s*(rpm|r/min|rad/s|deg/s|°/s|mm/s|m/s)", re.IGNORECASE)
 _MASS = re.compile(r"(?:m\s*=\s*)?(\d+(?:\.\d*)?)\s*kg(?!\s*[·*.]?\s*m)")
 _INERTIA = re.compile(r"J\s*=\s*(\d+(?:\.\d*)?(?:e[-+]?\d+)?)")
-_RATES = {"rpm": math.pi / 30, "r/min": math.pi / 30, "rad/s": 1.0, "deg/s": math.pi / 180, "°/s": math.pi / 180}
-_RATES |= {"mm/s": 1e-3, "m/s": 1.0}
 
 
 class Skeleton:
@@ -280,7 +279,7 @@ class Skeleton:
         rate = next((found for each in signs if (found := _RATE.search(each.text)) is not None), None)
         speed = self.answers.speed
         if speed is None and rate is not None:
-            speed = float(rate[1]) * _RATES[rate[2].lower()]
+            speed = float(rate[1]) * units.unit(rate[2].lower())[0]
         frame, bodies = self.layout.frame.places, self.layout.bodies
         hinged = {name: [p for p in body.places if p in frame] for name, body in bodies.items()}
         turning = {name: points[0] for name, points in hinged.items() if points}
