@@ -33,14 +33,13 @@ class Links:
         self.found = Elements()
         self.notes = dynamics_left_out(self.mechanism)
         self.cylinders = [each for each in self.mechanism.drivers.values() if each.cylinder is not None]
-        inside = {name for each in self.cylinders for name in (each.link, each.relative_to)}
+        inside = self.mechanism.cylinder_parts
         self.links = {name: each for name, each in self.mechanism.links.items() if name not in inside}
         every = [*self.mechanism.joints.values()]
-        self.guides = [
-            each for each in every if isinstance(each, SlidingJoint) and each.name not in self.mechanism.drivers
-        ]
+        guides = self.mechanism.guides
+        self.guides = [each for name, each in guides.items() if name not in self.mechanism.drivers]
         self.wheels = [each for each in every if isinstance(each, WheelPair)]
-        self.welds = [each for each in every if isinstance(each, RigidJoint)]
+        self.welds = list(self.mechanism.welds.values())
         known = (SlidingJoint, WheelPair, RigidJoint, TurningJoint)
         for joint in every:
             if not isinstance(joint, known):
@@ -68,16 +67,13 @@ class Links:
 
     def place(self, link: str, point: str) -> Vec:
         """Where a point of a link is, m."""
-        points = self.mechanism.frame.points if link == FRAME else self.mechanism.links[link].points
-        return self.world(link, points[point])
+        return self.world(link, self.mechanism.link(link).points[point])
 
     def world(self, link: str, local: Vec) -> Vec:
         """A place in a link's axes in frame axes; rounding errors are 0."""
-        placed = self.placed[link]
-        (x, y), (c, s) = placed.origin[self.index], placed.direction[self.index]
-        found = (float(x + c * local[0] - s * local[1]), float(y + s * local[0] + c * local[1]))
+        x, y = map(float, self.placed[link].world(local)[self.index])
         size = getattr(self, "size", 0.0)
-        return found if not size else (self._rounded(found[0]), self._rounded(found[1]))
+        return (x, y) if not size else (self._rounded(x), self._rounded(y))
 
     def _rounded(self, value: float) -> float:
         return 0.0 if abs(value) < 1e-15 * self.size else value

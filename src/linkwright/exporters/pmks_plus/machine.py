@@ -38,8 +38,7 @@ class ShareParts:
         self.index, self.placed = results.first_ok(), placements(results.motion)
         self.share, self.notes = Share(gravity=False), list[Message]()
         self.ids = _ids()
-        every = list(self.mechanism.joints.values())
-        for joint in every:
+        for joint in self.mechanism.joints.values():
             if not isinstance(joint, TurningJoint | SlidingJoint | RigidJoint):
                 raise RequestError(
                     _(
@@ -49,8 +48,8 @@ class ShareParts:
                         kind=joint.kind,
                     )
                 )
-        self.guides = [each for each in every if isinstance(each, SlidingJoint)]
-        self.welds = [each for each in every if isinstance(each, RigidJoint)]
+        self.guides = list(self.mechanism.guides.values())
+        self.welds = list(self.mechanism.welds.values())
         self.joints: dict[tuple[str, str], ShareJoint] = {}
         self.links: dict[str, ShareLink] = {}
         places = [self.world(name, each) for name, link in self.bodies() for each in link.points.values()]
@@ -65,13 +64,12 @@ class ShareParts:
 
     def world(self, link: str, local: Vec) -> Vec:
         """A place in a link's axes in frame axes, m."""
-        placed = self.placed[link]
-        (x, y), (c, s) = placed.origin[self.index], placed.direction[self.index]
-        return float(x + c * local[0] - s * local[1]), float(y + s * local[0] + c * local[1])
+        x, y = self.placed[link].world(local)[self.index]
+        return float(x), float(y)
 
     def place(self, link: str, point: str) -> Vec:
         """Where a point of a link is, m."""
-        return self.world(link, (self.mechanism.frame if link == FRAME else self.mechanism.links[link]).points[point])
+        return self.world(link, self.mechanism.link(link).points[point])
 
     def joint(self, name: str, place: Vec) -> ShareJoint:
         """A further joint at a place (m); what is only rounding of 0 is 0."""
