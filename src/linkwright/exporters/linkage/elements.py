@@ -53,7 +53,7 @@ class Ratio:
 
 @dataclass
 class Elements:
-    """All elements of a file; ``inches``: in which unit the program shows lengths."""
+    """All elements of a file."""
 
     connectors: list[Connector] = field(default_factory=list)
     links: list[LinkElement] = field(default_factory=list)

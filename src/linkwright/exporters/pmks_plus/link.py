@@ -23,16 +23,8 @@ CORRECTED = {
 }
 #: Units by their numbers: length, force.
 LENGTHS = ("in", "cm", "m", "cm")
-#: Letter of a link by whether it is a root, its inertia and its centre are given, and it is drawn as a disc.
-ROOTS = {
-    **{letter: (True, inertia, centre, False) for letter, inertia, centre in (("Y", 1, 1), ("A", 0, 0), ("M", 0, 1))},
-    **{
-        letter: (False, inertia, centre, False) for letter, inertia, centre in (("N", 1, 1), ("a", 0, 0), ("m", 0, 1))
-    },
-    "G": (True, True, False, False),
-    "g": (False, True, False, False),
-    **{str(k): (k < 4, k % 4 in (0, 3), k % 4 in (0, 2), True) for k in range(8)},
-}
+#: Whether a link is a root, by its letter, which also says what PMKS+ shows of it.
+ROOTS = dict.fromkeys("YAMG0123", True) | dict.fromkeys("Namg4567", False)
 
 
 @dataclass
@@ -77,7 +69,6 @@ class ShareLink:
     colour: str = ""
     block: bool = False
     root: bool = True
-    kind: str = "Y"
 
 
 @dataclass

@@ -249,14 +249,13 @@ def link_of(text: str) -> ShareLink:
     parts = text.split(",")
     if parts[0][1:2] not in ("R", "P") or parts[0][:1] not in ROOTS or len(parts) < 8:
         return oldest_link(parts)
-    kind, block, name = parts[0][0], parts[0][1] == "P", parts[0][2:]
+    root, block, name = ROOTS[parts[0][0]], parts[0][1] == "P", parts[0][2:]
     end = parts.index("", 7) if "" in parts[7:] else len(parts)
     joined = tuple(each for each in parts[end + 1 :] if each)
-    root = ROOTS[kind][0]
     joints = tuple(parts[7:end])
     colour = f"#{parts[6].lower()}" if parts[6] else ""
     mass, inertia, x, y = numbers(parts[2:6])
-    return ShareLink(name, parts[1], joints, joined, mass, inertia, x, y, colour, block, root, kind)
+    return ShareLink(name, parts[1], joints, joined, mass, inertia, x, y, colour, block, root)
 
 
 def oldest_link(parts: list[str]) -> ShareLink:
