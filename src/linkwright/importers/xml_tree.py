@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from xml.parsers import expat
@@ -30,6 +31,14 @@ class Element:
     def first(self, tag: str) -> Element | None:
         """The first child of a tag."""
         return next(self.all(tag), None)
+
+    def below(self) -> Iterator[Element]:
+        """All that it holds, level by level."""
+        pending = deque(self.children)
+        while pending:
+            element = pending.popleft()
+            yield element
+            pending.extend(element.children)
 
 
 def parse_xml(text: str, remarks: Remarks) -> Element | None:

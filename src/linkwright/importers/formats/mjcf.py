@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +17,7 @@ from linkwright.importers.trees.plane import plane_of
 from linkwright.importers.trees.rebased import held_at
 from linkwright.importers.trees.tree import WORLD, Tree
 from linkwright.importers.trees.tree_layout import tree_layout
-from linkwright.importers.xml_tree import Element, Lines, parse_xml
+from linkwright.importers.xml_tree import Lines, parse_xml
 from linkwright.words import _
 
 #: Mass (kg) and moment of inertia (kg·m²) of bodies without any, as MuJoCo demands some.
@@ -34,7 +33,8 @@ def read(source: ForeignText, answers: Answers, remarks: Remarks) -> Layout | No
         message = _("the root element is <{tag}>, not <mujoco>", tag=root.tag)
         remarks.remark("error", message, _("give a file of MuJoCo"), "import.mjcf_root", line=root.line)
         return None
-    if is_confined() and (named := sorted({each.get("file") for each in _all(root) if each.get("file")})):
+    files = {each.get("file") for each in (root, *root.below())} - {""}
+    if is_confined() and (named := sorted(files)):
         message = _("the model names other files, which are not read here: {names}", names=tuple(named))
         remarks.remark("error", message, _("put the model into one file, without meshes"), "import.mjcf_files")
         return None
@@ -76,13 +76,6 @@ def _tree(read: MujocoModel) -> Tree | None:
     add_motors(read, tree)
     tell_left_out(read)
     return tree
-
-
-def _all(element: Element) -> Iterator[Element]:
-    """An element with all that it holds."""
-    yield element
-    for each in element.children:
-        yield from _all(each)
 
 
 def _compiled(mujoco: Any, source: ForeignText, remarks: Remarks) -> Any:

@@ -15,7 +15,7 @@ from linkwright.importers.trees.loop_file import (
     loops_of_robot,
     motors_of_file,
 )
-from linkwright.importers.trees.mimic_loops import add_pins, drop_implied
+from linkwright.importers.trees.mimic_loops import add_pins, drop_implied, mimics
 from linkwright.importers.trees.motors import add_driver
 from linkwright.importers.trees.plane import plane_of
 from linkwright.importers.trees.rebased import held_at
@@ -69,16 +69,13 @@ def _is_robot(root: Element, source: ForeignText, remarks: Remarks) -> bool:
         message = _("the root element is <{tag}>, not <robot>", tag=root.tag)
         remarks.remark("error", message, _("give a URDF file"), "import.urdf_root", line=root.line)
         return False
-    pending = list(root.children)
-    while pending:
-        element = pending.pop(0)
+    for element in root.below():
         if element.tag.startswith("xacro:") or "${" in "".join(element.attributes.values()):
             stem = source.name.split(".")[0]
             message = _("the robot is written with xacro macros, which are not expanded here")
             remedy = _("expand them: xacro {name} > {stem}.urdf", name=source.name, stem=stem)
             remarks.remark("error", message, remedy, "import.xacro", line=element.line, key=element.tag)
             return False
-        pending += element.children
     return True
 
 
@@ -132,11 +129,6 @@ def _motors(root: Element, tree: Tree) -> list[Motor]:
                 found.setdefault(joint.get("name"), Motor("driver", joint.get("name")))
     if found:
         return list(found.values())
-    followers = {next(iter(each.factors)) for each in tree.couplings}
-    free = [each.name for each in tree.joints.values() if each.name not in followers and _moves(each.name, tree)]
+    followers = mimics(tree)
+    free = [each.name for each in tree.joints.values() if each.name not in followers and each.moves]
     return [Motor("driver", free[0])] if len(free) == 1 else []
-
-
-def _moves(name: str, tree: Tree) -> bool:
-    joint = tree.joints[name]
-    return joint.turns is not None or joint.slides is not None

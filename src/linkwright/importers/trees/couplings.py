@@ -230,7 +230,7 @@ class Rows:
 
     def _directed(self, body: str) -> bool:
         """Whether the drawing shows how a body is turned."""
-        return body == "frame" or len(set(self.made.layout.bodies[body].places.values())) > 1
+        return body == "frame" or self.made.layout.bodies[body].spread
 
     def _name(self, row: Row) -> str:
         made = self.made.layout

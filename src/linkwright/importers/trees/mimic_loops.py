@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from linkwright.importers.trees.rigid_groups import Move, joint_move
+from linkwright.importers.trees.rigid_groups import Move, part_moves
 from linkwright.importers.trees.tree import WORLD, Coupling, Pin, Tree, TreeJoint
 
 #: Positions in which points of two links must stay together, within this share of the size of the tree.
@@ -18,7 +18,7 @@ DETERMINED = 1e-4
 #: How far the independent joints move, rad or shares of the tree's size, where limits do not say less.
 RANGE = 0.7
 #: By what share of its range each joint is ahead of the one before it.
-GOLDEN = 0.6180339887
+GOLDEN = (math.sqrt(5) - 1) / 2
 
 
 def drop_implied(tree: Tree) -> None:
@@ -37,9 +37,17 @@ def add_pins(tree: Tree) -> list[str]:
     return found
 
 
-def _mimics(tree: Tree) -> dict[str, Coupling]:
+def mimics(tree: Tree) -> dict[str, Coupling]:
     """The coupling of each joint that follows another one: its first."""
     return {next(iter(each.factors)): each for each in tree.couplings}
+
+
+def follow(values: dict[str, float], followers: Mapping[str, Coupling]) -> None:
+    """Sets the coordinates of joints that follow others, also along chains of them."""
+    for _pass in followers:
+        for name, coupling in followers.items():
+            other, factor = list(coupling.factors.items())[-1]
+            values[name] = coupling.rest - factor * values[other]
 
 
 def _loop(tree: Tree, a: str, b: str) -> list[TreeJoint]:
@@ -55,18 +63,18 @@ def _loop(tree: Tree, a: str, b: str) -> list[TreeJoint]:
         chains.append(chain)
     one, other = chains
     between = {**{k: v for k, v in one.items() if k not in other}, **{k: v for k, v in other.items() if k not in one}}
-    return [each for each in between.values() if each.turns is not None or each.slides is not None]
+    return [each for each in between.values() if each.moves]
 
 
 def _drop(tree: Tree, loop: list[TreeJoint]) -> None:
     """Drops the couplings of two joints of a loop; of three that of the one that follows a neighbour stays."""
-    mimics = _mimics(tree)
-    followers = [joint for joint in tree.joints.values() if joint in loop and joint.name in mimics]
+    coupled = mimics(tree)
+    followers = [joint for joint in tree.joints.values() if joint in loop and joint.name in coupled]
     if len(loop) == 3 and len(followers) == 3:
-        beside = [joint for joint in followers if _on_one_carrier(tree, mimics[joint.name])]
+        beside = [joint for joint in followers if _on_one_carrier(tree, coupled[joint.name])]
         followers.remove((beside or followers)[0])
     if len(followers) == 2:
-        gone = [mimics[joint.name] for joint in followers]
+        gone = [coupled[joint.name] for joint in followers]
         tree.couplings = [each for each in tree.couplings if each not in gone]
 
 
@@ -76,15 +84,15 @@ def _on_one_carrier(tree: Tree, coupling: Coupling) -> bool:
 
 def _common_points(tree: Tree) -> Iterator[Pin]:
     """Pins that may replace two couplings, in the order of the tree."""
-    mimics = _mimics(tree)
-    poses = list(_poses(tree, mimics))
+    coupled = mimics(tree)
+    poses = list(_poses(tree, coupled))
     names = [WORLD, *tree.parts]
     pinned = {(pin.a, pin.b) for pin in tree.pins}
     for index, a in enumerate(names):
         for b in names[index + 1 :]:
             loop = _loop(tree, a, b)
             hinges = all(joint.turns is not None for joint in loop)
-            followers = [joint for joint in loop if joint.name in mimics]
+            followers = [joint for joint in loop if joint.name in coupled]
             if len(loop) != 3 or not hinges or len(followers) < 2 or (a, b) in pinned or (b, a) in pinned:
                 continue
             found = _common(tree, [(pose[a], pose[b]) for pose in poses])
@@ -114,7 +122,7 @@ def _size(tree: Tree) -> float:
     return max((abs(each - places[0]) for each in places), default=1.0) or 1.0
 
 
-def _poses(tree: Tree, mimics: Mapping[str, Coupling]) -> Iterator[dict[str, Move]]:
+def _poses(tree: Tree, followers: Mapping[str, Coupling]) -> Iterator[dict[str, Move]]:
     """Displacements of all parts from the reference pose in some positions."""
     size = _size(tree)
     for pose in range(POSES):
@@ -123,14 +131,6 @@ def _poses(tree: Tree, mimics: Mapping[str, Coupling]) -> Iterator[dict[str, Mov
             reach = RANGE * (size if joint.slides is not None else 1.0)
             low = max(-reach, -math.inf if joint.low is None else joint.low)
             high = min(reach, math.inf if joint.high is None else joint.high)
-            values[joint.name] = (
-                low + (high - low) * math.modf(pose / (POSES - 1) + number * (math.sqrt(5) - 1) / 2)[0]
-            )
-        for _pass in mimics:
-            for name, coupling in mimics.items():
-                other, factor = list(coupling.factors.items())[-1]
-                values[name] = coupling.rest - factor * values[other]
-        moves = {WORLD: Move()}
-        for joint in tree.joints.values():
-            moves[joint.child] = moves[joint.parent].after(joint_move(replace(joint, moved=values[joint.name])))
-        yield moves
+            values[joint.name] = low + (high - low) * math.modf(pose / (POSES - 1) + number * GOLDEN)[0]
+        follow(values, followers)
+        yield part_moves(replace(joint, moved=values[joint.name]) for joint in tree.joints.values())

@@ -16,7 +16,7 @@ def add_driver(tree: Tree, found: list[Motor], answers: Answers, remarks: Remark
 
     Without a motor the first joint at the world is asked for; without a speed the coordinate runs at 1 rad/s or m/s.
     """
-    moving = [each.name for each in tree.joints.values() if each.turns is not None or each.slides is not None]
+    moving = [each.name for each in tree.joints.values() if each.moves]
     named = [*([] if answers.driver is None else [answers.driver]), *(each.joint for each in found)]
     unknown = [each for each in named if each not in moving]
     if unknown:

@@ -34,9 +34,9 @@ class MujocoModel:
         self.data = mujoco.MjData(model)
         self.data.qpos[:] = model.qpos0
         mujoco.mj_kinematics(model, self.data)
-        self.names = self._names("body", mujoco.mjtObj.mjOBJ_BODY, model.nbody)
+        self.names = self._names("body", model.nbody)
         self.names[0] = WORLD
-        self.joint_names = self._names("joint", mujoco.mjtObj.mjOBJ_JOINT, model.njnt, self.names)
+        self.joint_names = self._names("joint", model.njnt)
         self.left_out: set[int] = set()
         #: The floating body that the user holds; -1: none.
         self.held = self._held()
@@ -52,9 +52,9 @@ class MujocoModel:
         """The name that the model gives something, "" where it gives none."""
         return str(self.mujoco.mj_id2name(self.model, getattr(self.mujoco.mjtObj, f"mjOBJ_{kind}"), index) or "")
 
-    def _names(self, kind: str, of: Any, count: int, taken: list[str] | None = None) -> list[str]:
+    def _names(self, kind: str, count: int) -> list[str]:
         """Names of all bodies or joints; those without one are counted."""
-        given = [str(self.mujoco.mj_id2name(self.model, of, index) or "") for index in range(count)]
+        given = [self.name(kind.upper(), index) for index in range(count)]
         found: list[str] = []
         for index, name in enumerate(given):
             made, number = name or f"{kind}{index}", index

@@ -54,7 +54,7 @@ class Placed:
         """Joints between two groups."""
         found = []
         for joint in self.tree.joints.values():
-            if joint.turns is None and joint.slides is None:
+            if not joint.moves:
                 continue
             if self.group(joint.parent) == self.group(joint.child):
                 message = _("the joint cannot move: what it joins is one body")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from linkwright.importers.trees.tree import WORLD, Tree, TreeJoint
@@ -37,6 +38,14 @@ def joint_move(joint: TreeJoint) -> Move:
     return Move(shift=(joint.slides or 0j) * joint.moved)
 
 
+def part_moves(joints: Iterable[TreeJoint]) -> dict[str, Move]:
+    """How joints, those of parents first, displace all parts from the reference pose to the start."""
+    moves = {WORLD: Move()}
+    for joint in joints:
+        moves[joint.child] = moves[joint.parent].after(joint_move(joint))
+    return moves
+
+
 class Groups:
     """Rigid groups of parts; every place is brought to the reference pose of the group's first part.
 
@@ -49,13 +58,11 @@ class Groups:
         self.of = {name: name for name in (WORLD, *tree.parts)}
         self.inside = {name: Move() for name in self.of}
         for joint in tree.joints.values():
-            if joint.turns is None and joint.slides is None:
+            if not joint.moves:
                 self._join(joint.parent, joint.child, Move())
         for weld in tree.welds:
             self._join(weld.a, weld.b, Move(weld.turn, weld.shift))
-        moves = {WORLD: Move()}
-        for joint in tree.joints.values():
-            moves[joint.child] = moves[joint.parent].after(joint_move(joint))
+        moves = part_moves(tree.joints.values())
         self.start = {name: moves[name] for name in set(self.of.values())}
 
     def _join(self, a: str, b: str, move: Move) -> None:

@@ -50,6 +50,11 @@ class TreeJoint:
     damping: float = 0.0
     line: int = 0
 
+    @property
+    def moves(self) -> bool:
+        """Whether it is a hinge or a slide."""
+        return self.turns is not None or self.slides is not None
+
 
 @dataclass
 class Pin:

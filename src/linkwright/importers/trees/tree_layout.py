@@ -163,7 +163,7 @@ class TreeLayout:
         if abs(lines[0] - lines[1]) > SAME or apart > self.placed.points.tolerance:
             made.offset = 0.0
             body = self.made.body(ends[1])
-            made.block_angle = angle(lines[1]) - body.axis if len(set(body.places.values())) > 1 else None
+            made.block_angle = angle(lines[1]) - body.axis if body.spread else None
         return made
 
     def slide_name(self, joint: str) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.importers.layout import Remarks
+from linkwright.importers.trees.mimic_loops import follow, mimics
 from linkwright.importers.trees.plane import Axis, Frame, Plane
 from linkwright.importers.trees.tree import WORLD, Coupling, Part, Tree, TreeJoint
 from linkwright.importers.xml_tree import Element
@@ -186,14 +187,14 @@ class UrdfModel:
 
     def _start(self, tree: Tree) -> None:
         """Joints at 0, or at the limit next to it; those that mimic others follow."""
-        mimics = {next(iter(each.factors)): each for each in tree.couplings}
+        followers = mimics(tree)
+        moved = dict.fromkeys(tree.joints, 0.0)
         for joint in tree.joints.values():
-            if joint.name not in mimics and joint.low is not None and joint.high is not None:
-                joint.moved = min(max(0.0, joint.low), joint.high)
-        for _pass in mimics:
-            for name, each in mimics.items():
-                other, factor = list(each.factors.items())[-1]
-                tree.joints[name].moved = each.rest - factor * tree.joints[other].moved
+            if joint.name not in followers and joint.low is not None and joint.high is not None:
+                moved[joint.name] = min(max(0.0, joint.low), joint.high)
+        follow(moved, followers)
+        for joint in tree.joints.values():
+            joint.moved = moved[joint.name]
 
     # -- links
 
