@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 
 from linkwright.exporters.export import FORMATS, Format
 from linkwright.exporters.mjcf.bodies import Chains
+from linkwright.exporters.mjcf.elements import written
 from linkwright.exporters.results import Results
 from linkwright.exporters.urdf.links import Robot
-from linkwright.exporters.urdf.loops import UrdfLoops, loop_file, loop_joints, loops_of
+from linkwright.exporters.urdf.loops import UrdfLoops, loop_elements, loop_file, loops_of
 from linkwright.exporters.urdf.mimics import mimics
-from linkwright.words.characters import printable
 
 
 def urdf_content(results: Results, *, loop_joints: bool = False) -> bytes:
@@ -25,15 +24,8 @@ def urdf_content(results: Results, *, loop_joints: bool = False) -> bytes:
     robot = _robot(results)
     root = robot.element()
     if loop_joints:
-        root.extend(_loop_joints(robot))
-    ET.indent(root)
-    for element in root.iter():
-        for name, value in element.attrib.items():
-            element.attrib[name] = printable(value)
-    return b'<?xml version="1.0" encoding="utf-8"?>\n' + ET.tostring(root, encoding="unicode").encode() + b"\n"
-
-
-_loop_joints = loop_joints
+        root.extend(loop_elements(robot))
+    return written(root)
 
 
 def beside(results: Results) -> Mapping[str, bytes]:

@@ -134,7 +134,7 @@ class Chains:
         for child, step in self.hung.items():
             if step.parent == parent:
                 coordinate = self._coordinate(step) if step.turns or step.slides else None
-                place, turn = self._against(parent, child)
+                place, turn = self.against(parent, child)
                 yield Body(child, parent, place, turn, coordinate, self.mechanism.links[child])
                 yield from self._riders(child)
                 yield from self._below(child)
@@ -153,9 +153,9 @@ class Chains:
                     slide.displacement,
                     slide.velocity,
                 )
-                yield Body(rider(cut), guide, *self._against(guide, cut.b), coordinate)
+                yield Body(rider(cut), guide, *self.against(guide, cut.b), coordinate)
 
-    def _against(self, base: str, body: str) -> tuple[Vec, float]:
+    def against(self, base: str, body: str) -> tuple[Vec, float]:
         """Place and angle of a body's axes in those of another one."""
         (origin, direction), (other, turned) = self.start(base), self.start(body)
         place, turn = (other - origin) * direction.conjugate(), turned * direction.conjugate()

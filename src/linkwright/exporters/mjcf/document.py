@@ -7,10 +7,9 @@ import xml.etree.ElementTree as ET
 from linkwright.core.arguments import positive
 from linkwright.exporters.mjcf.bodies import Chains
 from linkwright.exporters.mjcf.drives import actuators, key, laws_and_ranges, reflected_inertia, steady
-from linkwright.exporters.mjcf.elements import compiler, equality, numbers, tendons, world
+from linkwright.exporters.mjcf.elements import compiler, equality, numbers, tendons, world, written
 from linkwright.exporters.mjcf.loops import CLOSURE, closed_loops
 from linkwright.exporters.results import Results, seconds
-from linkwright.words.characters import printable
 
 #: Time steps in one cycle.
 STEPS_PER_CYCLE = 20_000
@@ -45,7 +44,7 @@ def mjcf_content(
     for part in (*parts, key(chains)):
         if len(part):
             root.append(part)
-    return _written(root)
+    return written(root)
 
 
 def _options(root: ET.Element, results: Results, step: float) -> None:
@@ -63,12 +62,3 @@ def _options(root: ET.Element, results: Results, step: float) -> None:
     stiff = ET.SubElement(root, "default")
     ET.SubElement(stiff, "equality", solref=numbers((2 * step, 1.0)), solimp="0.9999 0.9999 0.001 0.5 2")
     ET.SubElement(stiff, "geom", contype="0", conaffinity="0", mass="0")
-
-
-def _written(root: ET.Element) -> bytes:
-    """The indented XML document."""
-    ET.indent(root)
-    for element in root.iter():
-        for name, value in element.attrib.items():
-            element.attrib[name] = printable(value)
-    return b'<?xml version="1.0" encoding="utf-8"?>\n' + ET.tostring(root, encoding="unicode").encode() + b"\n"

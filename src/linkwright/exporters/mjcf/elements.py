@@ -12,6 +12,7 @@ from linkwright.exporters.mjcf.couplings import Coupling
 from linkwright.exporters.mjcf.loops import Loop, cut_name
 from linkwright.fields.colour import as_rgb
 from linkwright.mechanism.link import Link
+from linkwright.words.characters import printable
 
 #: Smallest mass of a body as a share of the largest one.
 MIN_MASS = 1e-3
@@ -22,6 +23,15 @@ HEAVY = 1e5
 def numbers(values: Iterable[float]) -> str:
     """Numbers with all their digits, separated by spaces."""
     return " ".join(repr(float(value) + 0.0).removesuffix(".0") for value in values)
+
+
+def written(root: ET.Element) -> bytes:
+    """The indented XML document."""
+    ET.indent(root)
+    for element in root.iter():
+        for name, value in element.attrib.items():
+            element.attrib[name] = printable(value)
+    return b'<?xml version="1.0" encoding="utf-8"?>\n' + ET.tostring(root, encoding="unicode").encode() + b"\n"
 
 
 def compiler(chains: Chains) -> ET.Element:

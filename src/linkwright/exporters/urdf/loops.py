@@ -12,7 +12,7 @@ import numpy as np
 
 from linkwright.core.table import Amount, Cell, Table, Tabular
 from linkwright.elements import Connection
-from linkwright.exporters.mjcf.bodies import Chains, Vec
+from linkwright.exporters.mjcf.bodies import Chains, Vec, rider
 from linkwright.exporters.mjcf.couplings import gap
 from linkwright.exporters.mjcf.elements import numbers
 from linkwright.exporters.mjcf.loops import cut_name
@@ -52,11 +52,8 @@ def loop_ends(robot: Robot, cut: Connection) -> tuple[str, End, End]:
         place = robot.inside(cut.a, (x - guide.offset * s, y + guide.offset * c))
         at = robot.inside(cut.b, mechanism.link(cut.b).points[guide.at])
         return "prismatic", End(cut.a, place, guide.direction), End(cut.b, at, guide.block_angle)
-    (origin, direction), (other, turned) = robot.chains.start(cut.a), robot.chains.start(cut.b)
-    away = (other - origin) * direction.conjugate()
-    turn = turned * direction.conjugate()
-    ends = robot.inside(cut.a, (away.real, away.imag)), robot.inside(cut.b, (0.0, 0.0))
-    return "fixed", End(cut.a, ends[0], math.atan2(turn.imag, turn.real)), End(cut.b, ends[1])
+    place, turn = robot.chains.against(cut.a, cut.b)
+    return "fixed", End(cut.a, robot.inside(cut.a, place), turn), End(cut.b, robot.inside(cut.b, (0.0, 0.0)))
 
 
 def loops(robot: Robot) -> Iterator[dict[str, Any]]:
@@ -73,9 +70,8 @@ def loops(robot: Robot) -> Iterator[dict[str, Any]]:
 
 def _loop_name(robot: Robot, cut: Connection) -> str:
     """The pin's name; of a guide that of its coordinate, which couplings may name."""
-    riders = [each for each in robot.chains.bodies if each.link is None and each.name == f"{cut.joint}.rider"]
-    names = [each.coordinate.name for each in riders if each.coordinate is not None]
-    return names[0] if cut.slides and names else cut.joint
+    coordinate = robot.chains.of(rider(cut)) if cut.slides else None
+    return cut.joint if coordinate is None else coordinate.name
 
 
 def drivers(chains: Chains) -> Iterator[dict[str, Any]]:
@@ -110,7 +106,7 @@ def loop_file(robot: Robot) -> bytes:
     return ("\n".join(lines) + "\n").encode()
 
 
-def loop_joints(robot: Robot) -> Iterator[ET.Element]:
+def loop_elements(robot: Robot) -> Iterator[ET.Element]:
     """``loop_joint`` elements of pins and welds, as Isaac Sim reads them; guides and wheels have none."""
     for cut in robot.chains.cuts:
         if cut.higher or cut.slides:

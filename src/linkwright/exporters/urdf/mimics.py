@@ -10,6 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Flags, Floats
 from linkwright.exporters.mjcf.bodies import Chains
+from linkwright.exporters.mjcf.couplings import Coupling, values_with
 
 #: Error (rad or m) up to which a coordinate is an exact linear function, and the motion of it that must be there.
 EXACT, MOVES = 1e-9, 1e-6
@@ -68,7 +69,5 @@ def _linear(follower: str, leader: str, values: Mapping[str, Floats]) -> Mimic |
 
 def with_mimics(chains: Chains, found: Mapping[str, Mimic]) -> dict[str, Floats]:
     """Coordinates at all positions, with those that mimic taken from their leaders."""
-    start = {each.name: float(each.values[chains.index]) for each in chains.coordinates}
-    values = {each.name: each.values for each in chains.coordinates}
-    gone = moved(chains)
-    return values | {name: start[name] + mimic.multiplier * gone[mimic.leader] for name, mimic in found.items()}
+    couplings = [Coupling(each.follower, each.leader, (0.0, each.multiplier)) for each in found.values()]
+    return values_with(chains, couplings, {each.name: each.values for each in chains.coordinates})
