@@ -261,3 +261,15 @@ def test_an_input_angle_that_does_not_assemble_is_replaced_by_the_nearest() -> N
     given = {"ground": 100, "input": 60, "coupler": 40, "output": 50}
     foreign = lw.read_foreign(project("four_bar_open", parameters=given, inputAngle=120))
     assert ("warning", "import.assembly") in codes(foreign) and "start: 6" in foreign.text
+
+
+@pytest.mark.parametrize("name", ["my plate", "L1"])
+def test_a_point_of_a_body_stays_on_it_whatever_the_body_is_called(name: str) -> None:
+    """A link's name has no blank, and a bar may have the same id; the point is at a corner that the joints give."""
+    data = json.loads((FILES / "watt_body.json").read_text("utf-8"))
+    data["bodies"][0]["id"] = data["tracers"][0]["bodyId"] = name
+    foreign = lw.read_foreign(json.dumps(data))
+    link, point = foreign.traced[0].split(".")
+    points = foreign.mechanism.links[link].points
+    assert set(points) == {"J2", "J3", "J5", "T1"} and point == "T1"
+    assert math.dist(points["J2"], points["T1"]) == pytest.approx(0.0385, abs=1e-9)

@@ -36,6 +36,8 @@ class Designer:
         self.layout = Layout(precision=1e-10 * project.size)
         fixed = [key for key in project.joints if project.fixed(key)]
         self.layout.frame.places |= {project.names[key]: project.places[key] for key in fixed}
+        #: Links of the bodies, by the ids that these have in the file.
+        self.plates: dict[str, str] = {}
         self.make_bodies()
         self.make_guides()
         self.make_dimensions()
@@ -56,7 +58,7 @@ class Designer:
             joints = [joint.word for joint in each.each("jointIds")]
             if self.project.known(each, *joints) and joints:
                 name = free_name(each.text("id"), self.layout.bodies, "B")
-                self.body(name, *joints, key=each.text("id"))
+                self.plates[each.text("id")] = self.body(name, *joints, key=each.text("id")).name
 
     def body(self, name: str, *joints: str, length: float | None = None, key: str = "") -> Body:
         """A link of these joints."""
@@ -271,7 +273,8 @@ class Designer:
             body = next(
                 (each for each in self.project.root.each("bodies") if each.text("id") == json.text("bodyId")), json
             )
-            joints, wanted = [each.word for each in body.each("jointIds")], body.text("id")
+            joints = [each.word for each in body.each("jointIds")]
+            wanted = self.plates.get(body.text("id"), "")
         name = self.gone.get(wanted, wanted)
         if len(joints) < 2 or name not in self.layout.bodies:
             self.project.skip(json, _("the traced bar or body is not there, or its length is driven: left out"))
