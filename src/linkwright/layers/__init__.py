@@ -1,0 +1,1 @@
+"""In which layer every plate of a machine goes."""

@@ -1,0 +1,1 @@
+"""Shapes in the plane: outlines of arcs and lines, their distances, areas and moments."""

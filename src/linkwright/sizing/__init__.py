@@ -1,0 +1,1 @@
+"""Widths of links and radii of pins from the largest forces."""
