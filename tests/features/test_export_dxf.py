@@ -69,6 +69,17 @@ def test_an_offset_and_the_decimal_point(tmp_path: Path) -> None:
         assert shown == {"60.5", "198", "702.5"}
 
 
+def test_small_offsets_of_the_frame_and_slopes_of_guides_are_measured(tmp_path: Path) -> None:
+    """All that places the frame's points, however small; and how a guide on a link is inclined to its axis."""
+    motion = store.motion("slider_crank_offset", 24)
+    frame = replace(motion.mechanism.frame, points={**motion.mechanism.frame.points, "G": (5.0, -2e-4)})
+    moved = lw.solve_motion(replace(motion.mechanism, frame=frame), steps=24)
+    found = measured(read(moved, tmp_path))
+    for size in (5000.0, 0.2):
+        assert any(each == pytest.approx(size, rel=1e-9) for each in found), size
+    assert 15.0 in [round(each, 9) for each in measured(read(store.motion("wedge", 24), tmp_path, force=True))]
+
+
 def test_the_angle_of_a_bent_link(tmp_path: Path) -> None:
     text = """format: 1
 frame: {points: {O1: [0 m, 0 m], O2: [0.4 m, 0 m]}}

@@ -22,6 +22,8 @@ from linkwright.words import _
 Dimension = str | tuple[str, str]
 _OFFSETS = (24.0, -24.0, 40.0, -40.0, 58.0, -58.0)
 _RADII = (34.0, 48.0, 64.0)
+#: Lengths of the paper below this are none, and angles, rad.
+ALIKE = 1e-6
 
 
 @dataclass(frozen=True)
@@ -124,6 +126,8 @@ def _of_link(machine: DrawnMechanism, name: str, index: int) -> Iterator[Distanc
         yield Distance(at[rows[0]], at[point])
         if number > 1 and _off_line(at[rows[0]], at[rows[1]], at[point]):
             yield Distance(at[rows[1]], at[point])
+    if name != "frame":
+        yield from _slopes(machine, name, index)
     yield from _offsets(machine, name, index)
 
 
@@ -132,15 +136,38 @@ def _of_frame(machine: DrawnMechanism, at: dict[str, Vec]) -> Iterator[Distance 
     named = list(at)
     for point in named[1:]:
         for along in ((1.0, 0.0), (0.0, 1.0)):
-            if abs(np.dot(np.subtract(at[point], at[named[0]]), along)) > 1.0:
+            if abs(np.dot(np.subtract(at[point], at[named[0]]), along)) > ALIKE:
                 yield Distance(at[named[0]], at[point], along)
     for joint in machine.guides.values():
         if joint.guide == "frame":
             turned = math.atan2(*direction(machine, joint)[::-1])
-            if min(abs(turned % (math.pi / 2)), abs(-turned % (math.pi / 2))) > 1e-9:
-                value = abs(turned) if abs(turned) <= math.pi / 2 else math.pi - abs(turned)
-                level = 0.0 if abs(turned) <= math.pi / 2 else math.copysign(math.pi, turned)
-                yield Angle(at[joint.through], level, turned, value)
+            if _inclined(turned):
+                yield _slope(at[joint.through], 0.0, turned)
+
+
+def _slopes(machine: DrawnMechanism, name: str, index: int) -> Iterator[Angle]:
+    """Directions of the link's guides against its x axis, where these do not go through two of its points."""
+    turn = machine.view.transform(machine.placed[name], index)[2]
+    for joint in machine.guides.values():
+        if joint.guide == name and joint.direction_points is None and _inclined(joint.direction):
+            yield _slope(machine.paper(name, joint.through, index), math.radians(turn), -joint.direction)
+
+
+def _slope(at: Vec, axis: float, turned: float) -> Angle:
+    """The acute angle between an axis and a line turned against it (rad, clockwise on the paper)."""
+    turned = math.remainder(turned, 2.0 * math.pi)
+    far = abs(turned) > math.pi / 2
+    return Angle(
+        at,
+        axis + (math.copysign(math.pi, turned) if far else 0.0),
+        axis + turned,
+        math.pi - abs(turned) if far else abs(turned),
+    )
+
+
+def _inclined(angle: float) -> bool:
+    """Whether a direction, rad, is neither level nor upright."""
+    return min(abs(angle % (math.pi / 2)), abs(-angle % (math.pi / 2))) > ALIKE
 
 
 def _offsets(machine: DrawnMechanism, name: str, index: int) -> Iterator[Distance]:
