@@ -1,0 +1,80 @@
+"""One part to make: a plate, pin, spacer or washer, where it goes and what is cut or turned."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from linkwright.shapes.shape import Shape, disc
+
+Sort = Literal["plate", "pin", "spacer", "washer"]
+
+
+@dataclass(frozen=True)
+class Hole:
+    """A bored hole of a plate for the ``pin`` (or post) of that name: centre in the plate's axes and radius, m;
+    ``fixed``: the pin is pressed into it, else it turns in it."""
+
+    pin: str
+    centre: complex
+    radius: float
+    fixed: bool
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where one of the equal parts is: on the link ``carrier``, its axes' origin at ``at`` (m) in those of the link,
+    its lower face at the height ``z`` (m); ``on``: the pin on which a spacer or washer is, or the part's own name."""
+
+    carrier: str
+    at: complex
+    z: float
+    on: str
+
+
+@dataclass(frozen=True, eq=False)
+class Prism:
+    """A shape between two heights above the lower face of a part, m."""
+
+    shape: Shape
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A part to make, as often as it has ``places``.
+
+    ``shape``: m, with all its holes; of a plate in the axes of its link, of anything round about its own axis.
+    ``length`` along the pins: the thickness of a plate or washer, of a pin between its heads, m. ``diameter`` of
+    what is round and its ``bore``, m, 0 of plates; ``head``: diameter and height of each of a pin's two heads, m, 0
+    without. ``layer``: the lowest in which it is; ``mass``: of one, kg.
+    """
+
+    name: str
+    sort: Sort
+    shape: Shape
+    length: float
+    material: str
+    mass: float
+    layer: int
+    places: tuple[Place, ...]
+    holes: tuple[Hole, ...] = ()
+    diameter: float = 0.0
+    bore: float = 0.0
+    head: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def count(self) -> int:
+        """How many are needed."""
+        return len(self.places)
+
+    def prisms(self) -> Iterator[Prism]:
+        """What it consists of from below: of a pin with heads three, else one."""
+        width, height = self.head
+        if height > 0.0:
+            yield Prism(disc(0j, 0.5 * width), -height, 0.0)
+        yield Prism(self.shape, 0.0, self.length)
+        if height > 0.0:
+            yield Prism(disc(0j, 0.5 * width), self.length, self.length + height)
