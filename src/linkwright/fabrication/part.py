@@ -48,8 +48,8 @@ class Part:
 
     ``shape``: m, with all its holes; of a plate in the axes of its link, of anything round about its own axis.
     ``length`` along the pins: the thickness of a plate or washer, of a pin between its heads, m. ``diameter`` of
-    what is round and its ``bore``, m, 0 of plates; ``head``: diameter and height of each of a pin's two heads, m, 0
-    without. ``layer``: the lowest in which it is; ``mass``: of one, kg.
+    what is round and its ``bore``, m, 0 of plates; ``head``: diameter of a pin's heads, ``heads``: height of the
+    lower and of the upper one, m, 0 without. ``layer``: the lowest in which it is; ``mass``: of one, kg.
     """
 
     name: str
@@ -63,7 +63,8 @@ class Part:
     holes: tuple[Hole, ...] = ()
     diameter: float = 0.0
     bore: float = 0.0
-    head: tuple[float, float] = (0.0, 0.0)
+    head: float = 0.0
+    heads: tuple[float, float] = (0.0, 0.0)
 
     @property
     def count(self) -> int:
@@ -71,10 +72,10 @@ class Part:
         return len(self.places)
 
     def prisms(self) -> Iterator[Prism]:
-        """What it consists of from below: of a pin with heads three, else one."""
-        width, height = self.head
-        if height > 0.0:
-            yield Prism(disc(0j, 0.5 * width), -height, 0.0)
+        """What it consists of from below: a pin with heads of up to three, else of one."""
+        below, above = self.heads
+        if below > 0.0:
+            yield Prism(disc(0j, 0.5 * self.head), -below, 0.0)
         yield Prism(self.shape, 0.0, self.length)
-        if height > 0.0:
-            yield Prism(disc(0j, 0.5 * width), self.length, self.length + height)
+        if above > 0.0:
+            yield Prism(disc(0j, 0.5 * self.head), self.length, self.length + above)
