@@ -2,10 +2,34 @@
 
 from __future__ import annotations
 
+from linkwright.formula.recently_made import Recent
+from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.sizing.sizes import sizes_of
+from linkwright.solids.draft import Draft
+from linkwright.solids.frame import add_frame
+from linkwright.solids.guides import add_blocks, add_guides, plan_blocks, plan_slides
+from linkwright.solids.links import add_links
+from linkwright.solids.pins import add_pins
 from linkwright.solids.solid import Solids
 
 
 def solids(mechanism: Mechanism) -> Solids:
     """Everything that takes room, with sizes of the file, else from the largest forces, else by rule."""
-    raise NotImplementedError
+    return _recent.get(mechanism, None, lambda: _solids(mechanism))
+
+
+_recent: Recent[Mechanism, Solids] = Recent(16)
+
+
+def _solids(mechanism: Mechanism) -> Solids:
+    sizes = sizes_of(mechanism)
+    draft = Draft(mechanism, solve_motion(mechanism, failures="mark"), sizes, notes=dict.fromkeys(sizes.notes))
+    slides = plan_slides(draft)
+    alone = plan_blocks(draft, slides)
+    add_frame(draft)
+    add_links(draft)
+    add_guides(draft, slides)
+    add_blocks(draft, slides, alone)
+    add_pins(draft, slides)
+    return draft.finished()

@@ -1,0 +1,169 @@
+"""The solids of a machine in the making."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from linkwright.core.arrays import Floats
+from linkwright.joints.lower_pair import SlidingJoint
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.placement import Placement, placements
+from linkwright.mechanism.construction import Construction, LinkShape
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.shapes.shape import Shape
+from linkwright.sizing.sizes import Sizes
+from linkwright.solids.carriers import Carriers
+from linkwright.solids.slots import Slot
+from linkwright.solids.solid import Solid, Solids, Sort
+from linkwright.words import Message
+
+#: Places nearer to each other than this share of a machine are one.
+SAME = 1e-9
+
+
+@dataclass
+class Body:
+    """Links that move as one: their ``carrier``, the ``links``, what the plate of theirs is to hold.
+
+    ``slots`` that are cut into the plate, ``fixed``: places (in the carrier's axes, m) of posts and blocks that it
+    reaches; ``plate``: its name, empty where they have none; ``shape``: that of the plate instead of the links' own.
+    """
+
+    carrier: str
+    links: tuple[str, ...]
+    slots: list[Slot] = field(default_factory=list)
+    fixed: list[complex] = field(default_factory=list)
+    plate: str = ""
+    sort: Sort = "link"
+    shape: Shape | None = None
+
+
+@dataclass
+class Draft:
+    """A machine with its motion and sizes, and what of its solids is there already.
+
+    ``axles``: wheels and cams besides the plates of their links: carrier, centre in its axes, plate.
+    """
+
+    mechanism: Mechanism
+    motion: Motion
+    sizes: Sizes
+    solids: dict[str, Solid] = field(default_factory=dict)
+    level: list[tuple[str, str]] = field(default_factory=list)
+    joined: set[tuple[str, str]] = field(default_factory=set)
+    notes: dict[Message, None] = field(default_factory=dict)
+    bores: dict[str, dict[complex, float]] = field(default_factory=dict)
+    axles: list[tuple[str, complex, str]] = field(default_factory=list)
+
+    @cached_property
+    def carriers(self) -> Carriers:
+        """Which links move as one."""
+        return Carriers(self.mechanism)
+
+    @cached_property
+    def bodies(self) -> Mapping[str, Body]:
+        """Links that move as one by the names of their carriers."""
+        return {carrier: Body(carrier, links) for carrier, links in self.carriers.groups()}
+
+    @cached_property
+    def placed(self) -> Mapping[str, Placement]:
+        """Where the links are at all positions."""
+        return placements(self.motion)
+
+    @cached_property
+    def construction(self) -> Construction | None:
+        """How the machine is made, as far as its file says it."""
+        return getattr(self.mechanism, "construction", None)
+
+    @property
+    def near(self) -> float:
+        """What is nearer to each other than this is at one place, m."""
+        return SAME * self.mechanism.size
+
+    def body(self, link: str) -> Body:
+        """The links with which a link moves."""
+        return self.bodies[self.carriers.carrier(link)]
+
+    def own_shape(self, link: str) -> LinkShape | None:
+        """The shape that the file gives a link."""
+        return getattr(self.mechanism.link(link), "shape", None)
+
+    def width(self, body: Body) -> float:
+        """The width of the plate of some links, m."""
+        return max(self.sizes.width[link] for link in body.links)
+
+    def points(self, body: Body) -> list[complex]:
+        """All places of the points of some links, each once, in the carrier's axes, m."""
+        found: list[complex] = []
+        for link in body.links:
+            for point in self.mechanism.link(link).points:
+                place = self.carriers.place(link, point)
+                if not any(abs(place - each) <= self.near for each in found):
+                    found.append(place)
+        return found
+
+    def pinned(self, body: Body) -> list[tuple[str, complex]]:
+        """Pins in some links with their places in the carrier's axes."""
+        return [
+            (name, self.carriers.place(link, name))
+            for name, pin in self.mechanism.pins.items()
+            for link in pin.joined
+            if link in body.links
+        ]
+
+    def add(self, solid: Solid, *joined: str) -> None:
+        """Adds a solid that touches others, by their names."""
+        self.solids[solid.name] = solid
+        self.join(solid.name, *joined)
+
+    def join(self, name: str, *others: str) -> None:
+        """Says that a solid is meant to touch others."""
+        self.joined |= {(min(name, each), max(name, each)) for each in others if each and each != name}
+
+    def known(self, name: str) -> str:
+        """The name of a solid; empty where there is none of that name."""
+        return name if name in self.solids else ""
+
+    def plate(self, name: str, sort: Sort, carrier: str, shape: Shape, link: str, *joined: str) -> None:
+        """Adds a plate as thick and of the same material as those of a link."""
+        thickness, density = self.sizes.thickness[link], self.density(link)
+        self.add(Solid(name, sort, carrier, shape, (name,), 0.0, thickness, density), *joined)
+
+    def density(self, link: str) -> float:
+        """The density of a link's material, kg/m³; 0 where nothing says of what it is made."""
+        return 0.0 if self.construction is None else self.construction.material.density
+
+    def bore(self, plates: Iterable[str], places: Mapping[str, complex], radius: float) -> None:
+        """Holes in plates for a pin or a post, at its ``places`` by the carriers of the plates."""
+        fit = 0.0 if self.construction is None else self.construction.fit
+        for name in plates:
+            carrier = self.solids[name].carrier
+            if carrier in places:
+                holes, place = self.bores.setdefault(name, {}), places[carrier]
+                same = next((each for each in holes if abs(each - place) <= self.near), place)
+                holes[same] = max(holes.get(same, 0.0), radius + 0.5 * fit)
+
+    def stroke(self, guide: SlidingJoint) -> tuple[float, float]:
+        """The smallest and the largest displacement of a block, m; (0, 0) where no position is reached."""
+        displacement = self.motion.joint(guide.name).displacement
+        reached = displacement[np.isfinite(displacement)]
+        return (float(reached.min()), float(reached.max())) if len(reached) else (0.0, 0.0)
+
+    def seen(self, link: str, point: str, on: str) -> Floats:
+        """A point of a link at all positions that are reached, as complex numbers in the axes of a carrier, m."""
+        placed, x, y = self.placed[on], *self.mechanism.link(link).points[point]
+        gap = self.placed[link].world((x, y)) - placed.origin
+        found = (gap[:, 0] + 1j * gap[:, 1]) * (placed.direction[:, 0] - 1j * placed.direction[:, 1])
+        return np.asarray(found[np.isfinite(found)])
+
+    def finished(self) -> Solids:
+        """All solids, their plates bored."""
+        for name, holes in self.bores.items():
+            solid = self.solids[name]
+            shape = replace(solid.shape, holes=(*solid.shape.holes, *holes.items()))
+            self.solids[name] = replace(solid, shape=shape)
+        return Solids(self.solids, tuple(self.level), frozenset(self.joined), tuple(self.notes))

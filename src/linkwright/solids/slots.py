@@ -1,0 +1,143 @@
+"""Slots in which blocks slide: the wall around one, and what a slot leaves of a plate."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from linkwright.core.arrays import Complexes
+from linkwright.shapes.shape import Piece, Shape
+
+#: What is shorter than this share of a slot is nothing.
+NOTHING = 1e-9
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A rectangle along a line, all in the axes of a carrier: ``start`` on its middle line (m), the unit vector
+    ``way``, its ends ``low`` and ``high`` along it, half its width, and the ``wall`` around it, m."""
+
+    start: complex
+    way: complex
+    low: float
+    high: float
+    half: float
+    wall: float
+
+    def at(self, along: float, left: float = 0.0) -> complex:
+        """A place by how far along and left of the middle line it is."""
+        return self.start + self.way * complex(along, left)
+
+    def local(self, place: complex) -> complex:
+        """How far along and left of the middle line a place is."""
+        return (place - self.start) * self.way.conjugate()
+
+    def distance(self, place: complex) -> float:
+        """From a place to the slot, m; 0 within."""
+        local = self.local(place)
+        beyond = max(self.low - local.real, local.real - self.high, 0.0)
+        return abs(complex(beyond, max(abs(local.imag) - self.half, 0.0)))
+
+    def corners(self, out: float = 0.0) -> list[complex]:
+        """Its corners, moved outwards by a distance, counter-clockwise."""
+        low, high, half = self.low - out, self.high + out, self.half + out
+        return [self.at(low, -half), self.at(high, -half), self.at(high, half), self.at(low, half)]
+
+    @cached_property
+    def ring(self) -> Piece:
+        """The wall around the slot."""
+        corners = self.corners(0.5 * self.wall)
+        return Piece((np.array([*corners, corners[0]]),), 0.5 * self.wall)
+
+    def meets(self, other: Slot) -> bool:
+        """Whether the walls of two slots cross or touch: no straight line parts them."""
+        mine, its = (np.array(each.corners(each.wall)) for each in (self, other))
+        for way in (self.way, 1j * self.way, other.way, 1j * other.way):
+            a, b = ((each * np.conj(way)).real for each in (mine, its))
+            if a.max() < b.min() or b.max() < a.min():
+                return False
+        return True
+
+
+def slotted(shape: Shape, slot: Slot) -> Shape:
+    """A plate with a slot: what lies beyond each of its four sides, with the wall around it, and a bar to it where
+    the slot is away from the plate."""
+    straight = (each for piece in shape.pieces for each in _straight(piece))
+    kept = tuple(piece for each in straight for piece in _beyond(each, slot))
+    return Shape((*kept, *_tie(kept, slot), slot.ring), shape.holes)
+
+
+def _straight(piece: Piece) -> Iterator[Piece]:
+    """A bent bar as straight ones; any other piece as it is."""
+    (ring, *others) = piece.rings
+    if piece.filled or others or len(ring) < 3:
+        yield piece
+        return
+    for side in piece.sides:
+        yield Piece((side,), piece.radius)
+
+
+def _beyond(piece: Piece, slot: Slot) -> Iterator[Piece]:
+    """The parts of a piece with a convex core that leave the slot free, with their round edges."""
+    corners = np.concatenate(piece.rings)
+    local = (corners - slot.start) * np.conj(slot.way)
+    out = piece.radius
+    limits = (
+        (local.real, slot.low - out, 1.0),
+        (local.real, slot.high + out, -1.0),
+        (local.imag, -slot.half - out, 1.0),
+        (local.imag, slot.half + out, -1.0),
+    )
+    whole = max(float((sign * (values - limit)).max()) * -1.0 for values, limit, sign in limits)
+    if whole >= 0.0:
+        yield piece
+        return
+    for values, limit, sign in limits:
+        above = sign * (limit - values)
+        left = _clipped(corners, above, closed=piece.filled)
+        if len(left):
+            yield Piece((left,), piece.radius, filled=piece.filled and len(left) > 2)
+
+
+def _clipped(corners: Complexes, above: Complexes, *, closed: bool) -> Complexes:
+    """The part of a chain of lines or of a convex polygon where a linear function is not negative."""
+    found: list[complex] = []
+    count = len(corners)
+    for k in range(count):
+        if above[k] >= 0.0:
+            found.append(complex(corners[k]))
+        if k + 1 < count or (closed and count > 2):
+            following = (k + 1) % count
+            if above[k] * above[following] < 0.0:
+                share = above[k] / (above[k] - above[following])
+                found.append(complex(corners[k] + share * (corners[following] - corners[k])))
+    return np.array(found, dtype=complex)
+
+
+def _tie(pieces: tuple[Piece, ...], slot: Slot) -> Iterator[Piece]:
+    """A bar from the wall of a slot to a plate that does not touch it."""
+    if not pieces:
+        return
+    ring = slot.ring
+    gaps = [(*nearest(each, ring), each) for each in pieces]
+    a, b, piece = min(gaps, key=lambda each: abs(each[0] - each[1]) - each[2].radius)
+    if abs(a - b) > piece.radius:
+        yield Piece((np.array([a, b]),), ring.radius)
+
+
+def nearest(first: Piece, second: Piece) -> tuple[complex, complex]:
+    """Where the cores of two pieces come nearest to each other."""
+    found = []
+    for a, b in ((first, second), (second, first)):
+        for place in a.corners:
+            start, way = b.sides[:, 0], b.sides[:, 1] - b.sides[:, 0]
+            square = np.maximum(np.abs(way) ** 2, 1e-300)
+            share = np.clip(((place - start) * np.conj(way)).real / square, 0.0, 1.0)
+            feet = start + share * way
+            k = int(np.argmin(np.abs(feet - place)))
+            ends = complex(place), complex(feet[k])
+            found.append(ends if a is first else ends[::-1])
+    return min(found, key=lambda each: abs(each[0] - each[1]))
