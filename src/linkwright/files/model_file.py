@@ -21,6 +21,7 @@ from linkwright.files.read_drivers import CYCLE_FORMS, WAYS
 from linkwright.files.read_model import FORMAT, HEADER, read_model
 from linkwright.files.source import ENDINGS, GALLERY, gallery_names, read_source
 from linkwright.joints.base import JOINTS
+from linkwright.mechanism.construction import Construction
 from linkwright.mechanism.cycle import ROCK, Cycle
 from linkwright.mechanism.link import FRAME_FIELDS, LINK_FIELDS
 from linkwright.mechanism.mechanism import Mechanism
@@ -151,6 +152,7 @@ def json_schema() -> Schema:
         ),
         "stops": (_named(table_schema(STOP_FIELDS)), _("end stops by name, for motion under forces")),
         "run": (table_schema(RunConditions.fields({})), _("how a run under forces begins and ends")),
+        "construction": (table_schema(Construction.fields()), _("how the machine is made: sizes, material, layers")),
         "outputs": (_named({"type": "string"}), _("formulas of places and rates with names of their own")),
     }
     properties = {name: each.schema() for name, each in HEADER.items()}

@@ -24,6 +24,7 @@ from linkwright.fields.sheet import FIELD as SHEET_SECTION
 from linkwright.files.check_mechanism import check_mechanism
 from linkwright.files.misplaced import in_place
 from linkwright.files.node_reader import MODES
+from linkwright.files.read_construction import read_construction
 from linkwright.files.read_cylinders import as_written, with_cylinders
 from linkwright.files.read_drivers import read_cycle, read_drivers, scan_input
 from linkwright.files.read_dynamics import read_actuators, read_run, read_stops
@@ -82,6 +83,7 @@ SECTIONS = (
     "actuators",
     "stops",
     "run",
+    "construction",
     "outputs",
 )
 _NO_PARAMETER = _('"{name}" cannot name a parameter: it is {what}')
@@ -146,6 +148,7 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
         actuators=read_actuators(reader, root.get("actuators"), loads),
         stops=read_stops(reader, root.get("stops")),
         run=read_run(reader, root, drivers),
+        construction=read_construction(reader, root.get("construction")),
         parameters=parameters,
         kinds={name: reader.kinds[name] for name in parameters},
         expressions=reader.expressions,

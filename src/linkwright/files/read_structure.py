@@ -7,10 +7,12 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
+from linkwright.fields.mass import FROM_SHAPE
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence, below
 from linkwright.fields.reading import Names, Place
 from linkwright.fields.references import Coordinates, sliding
+from linkwright.files.mass_from_shape import shape_points_known
 from linkwright.files.node_reader import NAME, as_meant, meant_kind
 from linkwright.files.reader import Reader
 from linkwright.joints.base import IMPLIED, JOINTS, Entry, Joint, implied_joint
@@ -65,7 +67,10 @@ def read_frame(reader: Reader, node: Node | None) -> Link:
         return Link("frame", "coordinates", {})
     found = reader.table(node, Place("frame", "frame"), FRAME_FIELDS) or {}
     placed = {name: place for name, place in (found.get("points") or {}).items() if place is not None}
-    return Link("frame", "coordinates", placed)
+    shape = found.get("shape")
+    if not shape_points_known(reader, node, "frame", shape):
+        shape = None
+    return Link("frame", "coordinates", placed, shape=shape)
 
 
 def read_drawing(reader: Reader, node: Node | None, frame: Link) -> dict[str, Vec]:
@@ -194,16 +199,21 @@ def _read_link(reader: Reader, node: Node, name: str, drawing: Mapping[str, Vec]
         node.get("mass_centre") or node, place.child("mass_centre"), centre, name
     ):
         return None
+    if not shape_points_known(reader, node, name, values.get("shape")):
+        return None
+    from_shape = values.get("mass") == FROM_SHAPE
     return Link(
         name,
         geometry,
         coordinates,
         lengths,
         values.get("angle") or 0.0,
-        values.get("mass") or 0.0,
+        0.0 if from_shape else values.get("mass") or 0.0,
         values.get("inertia") or 0.0,
         centre,
         values.get("colour") or "",
+        values.get("shape"),
+        from_shape,
     )
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from linkwright import gallery
 from linkwright.core.arguments import describe
 from linkwright.errors import Finding, ModelError, RequestError
+from linkwright.fields.outline_file import FileName
 from linkwright.filesystem import allowed
 from linkwright.registry import nearest
 from linkwright.words import _, pgettext
@@ -42,9 +43,11 @@ def read_source(source: str | Path) -> tuple[str, str]:
                 found=describe(source),
             )
         )
+    from pathlib import Path
+
     content = read_bytes(source)
     name = os.path.basename(source)
-    return decode(content, name), name
+    return decode(content, name), FileName(name, Path(source).parent)
 
 
 def read_bytes(source: str | Path) -> bytes:

@@ -14,6 +14,7 @@ from linkwright.drivers.base import Driver
 from linkwright.drivers.cylinder import barrel_name, rod_name
 from linkwright.errors import Finding, LinkwrightError, ModelError, with_remedy
 from linkwright.fields.body import BODY_FIELDS
+from linkwright.fields.mass import FROM_SHAPE
 from linkwright.fields.nodes import Entry, Node, Scalar, Sequence, located
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.references import PLACE
@@ -44,6 +45,8 @@ def to_data(mechanism: Mechanism) -> Plain:
     data |= {key: HEADER[key].written(text) for key in ("purpose", "source") if (text := getattr(mechanism, key))}
     data["parameters"] = {name: texts.get(name) or _parameter(mechanism, name) for name in mechanism.parameters}
     data["frame"] = {"points": _substituted(_places(mechanism.frame.points), "frame", texts)}
+    if mechanism.frame.shape is not None:
+        data["frame"]["shape"] = _substituted(mechanism.frame.shape.written(), "frame.shape", texts)
     drawn = {**mechanism.frame.points, **mechanism.drawing}
     cylinders = {name: each for name, each in mechanism.drivers.items() if is_whole(mechanism, each)}
     parts = {link for each in cylinders.values() for link in (each.link, each.relative_to)}
@@ -68,6 +71,8 @@ def to_data(mechanism: Mechanism) -> Plain:
         name: _substituted(stop.written(), f"stops.{name}", texts) for name, stop in mechanism.stops.items()
     }
     data["run"] = _substituted(mechanism.run.written(mechanism.drivers), "run", texts) if mechanism.run else {}
+    if mechanism.construction is not None:
+        data["construction"] = _substituted(mechanism.construction.written(texts), "construction", texts)
     data["outputs"] = {name: each.expression.text for name, each in mechanism.outputs.items()}
     data |= {name: dict(getattr(mechanism, name)) for name in FREE_SECTIONS}
     return {key: value for key, value in data.items() if value not in ({}, [])}
@@ -88,7 +93,9 @@ def _link(link: Link, texts: Mapping[str, str], drawn: Mapping[str, Vec]) -> Pla
     sizes: Plain = {"lengths": link.lengths, "angle": link.angle} if link.geometry == "bent" else {}
     if link.geometry == "length":
         sizes = {"length": link.lengths[0]}
-    mass_values = {key: getattr(link, key) for key in ("mass", "inertia", "mass_centre", "colour")}
+    mass_values = {key: getattr(link, key) for key in ("mass", "inertia", "mass_centre", "colour", "shape")}
+    if link.mass_from_shape:
+        mass_values |= {"mass": FROM_SHAPE, "inertia": 0.0, "mass_centre": None}
     sizes |= {key: value for key, value in mass_values.items() if value or f"{link.name}.{key}" in texts}
     written = {key: LINK_FIELDS[key].written(value) for key, value in sizes.items()}
     found = {"points": points, **_substituted(written, link.name, texts)}

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Literal, TypeVar
 
 from linkwright.fields.base import Field, Quantities, Quantity
 from linkwright.fields.body import BODY_FIELDS
 from linkwright.fields.references import Coordinates, LinkPoints
+from linkwright.fields.shape_of_link import LinkShape, ShapeField
 from linkwright.words import _
 
 T = TypeVar("T")
@@ -27,7 +28,8 @@ LINK_FIELDS: Mapping[str, Field] = {
     **BODY_FIELDS,
 }
 FRAME_FIELDS: Mapping[str, Field] = {
-    "points": Coordinates(required=True, doc=_("fixed points: {{O1: [0 m, 0 m], …}}"))
+    "points": Coordinates(required=True, doc=_("fixed points: {{O1: [0 m, 0 m], …}}")),
+    "shape": ShapeField(doc=_("shape of the frame's plate: a word, or a table (default: bar, or plate)")),
 }
 
 
@@ -41,7 +43,8 @@ class Link:
     the origin).
     ``points`` holds all points in order, those of ``also`` last. ``mass_centre`` may name one of them;
     None means the default: midway between the first two points, or at the only one. ``colour``: in which it is
-    drawn, a name or #rrggbb; empty for that of all lines.
+    drawn, a name or #rrggbb; empty for that of all lines. ``shape``: of its plate, None for the usual one;
+    ``mass_from_shape``: whether mass, inertia and mass centre follow from it.
     """
 
     name: str
@@ -53,6 +56,8 @@ class Link:
     inertia: float = 0.0
     mass_centre: Vec | str | None = None
     colour: str = ""
+    shape: LinkShape | None = None
+    mass_from_shape: bool = False
 
     def fields(self) -> Mapping[str, Field]:
         """What a file may say about the link."""
@@ -93,6 +98,8 @@ class Link:
     def dimensions(self) -> dict[str, float]:
         """Addresses of all dimensions of the link with their SI values."""
         found = self.geometry_dimensions()
+        if self.shape is not None:
+            found |= {f"{self.name}.shape{end}": value for end, value in self.shape.dimensions().items()}
         if self.name == "frame":
             return found
         found[f"{self.name}.mass"], found[f"{self.name}.inertia"] = self.mass, self.inertia
@@ -112,13 +119,15 @@ class Link:
             point: (float(x), float(y)) for point, (x, y) in local_points(self, value, math.cos, math.sin).items()
         }
         angle = value(f"{name}.angle") if self.geometry == "bent" else self.angle
+        shape = self.shape and self.shape.with_dimensions(lambda end: value(f"{name}.shape{end}"))
+        changed = replace(self, points=moved, lengths=lengths, angle=angle, shape=shape)
         if name == "frame":
-            return Link(name, self.geometry, moved, lengths, angle)
+            return changed
         centre = self.mass_centre
         if isinstance(centre, tuple):
             centre = value(f"{name}.mass_centre.x"), value(f"{name}.mass_centre.y")
         mass, inertia = value(f"{name}.mass"), value(f"{name}.inertia")
-        return Link(name, self.geometry, moved, lengths, angle, mass, inertia, centre, self.colour)
+        return replace(changed, mass=mass, inertia=inertia, mass_centre=centre)
 
 
 def local_points(

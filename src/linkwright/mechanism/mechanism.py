@@ -24,6 +24,7 @@ from linkwright.fields.base import Field, Quantities
 from linkwright.fields.references import PLACE
 from linkwright.joints.base import Joint
 from linkwright.joints.lower_pair import RigidJoint, SlidingJoint, TurningJoint
+from linkwright.mechanism.construction import Construction
 from linkwright.mechanism.cycle import Cycle
 from linkwright.mechanism.link import Link, Vec
 from linkwright.mechanism.run_conditions import RunConditions
@@ -76,7 +77,8 @@ class Mechanism(Frozen):
     pins in order of first appearance, then the explicit joints. ``kinds`` are the dimensions of the
     ``parameters``; ``outputs`` are formulas of places that have a name. ``actuators``, ``stops`` and ``run`` are for
     motion under forces; what prescribes a motion leaves them out. ``expressions`` maps the address of every
-    dimension that was given by an expression of ``parameters`` to that expression.
+    dimension that was given by an expression of ``parameters`` to that expression. ``construction``: how it is made,
+    None where the file does not say.
     """
 
     name: str
@@ -96,6 +98,7 @@ class Mechanism(Frozen):
     actuators: Mapping[str, Actuator] = field(default_factory=dict)
     stops: Mapping[str, Stop] = field(default_factory=dict)
     run: RunConditions | None = None
+    construction: Construction | None = None
     parameters: Mapping[str, float] = field(default_factory=dict)
     kinds: Mapping[str, Dimension] = field(default_factory=dict)
     expressions: Mapping[str, Expression] = field(default_factory=dict)
@@ -176,6 +179,8 @@ class Mechanism(Frozen):
                 return path_fields()
             case "run":
                 return RunConditions.fields(self.drivers)
+            case "construction":
+                return Construction.fields()
         return {}
 
     def dimensions(self) -> dict[str, float]:
@@ -230,6 +235,7 @@ class Mechanism(Frozen):
             if self.path is None
             else self.path.with_dimensions(lambda name: value(f"path.{name}"), parameters),
             run=None if self.run is None else self.run.with_dimensions(value),
+            construction=None if self.construction is None else self.construction.with_dimensions(value),
             parameters=_with(self.parameters, parameters),
             expressions=self.expressions if same else unchanged,
         )
@@ -369,6 +375,8 @@ class Mechanism(Frozen):
             found.update({f"path.{name}": value for name, value in self.path.dimensions().items()})
         if self.run is not None:
             found.update(self.run.dimensions())
+        if self.construction is not None:
+            found.update(self.construction.dimensions())
         return found
 
     def _unknown(self, address: str) -> LinkwrightError:

@@ -1,0 +1,154 @@
+"""Outlines in the plane: closed chains of places that neither cross themselves nor each other."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from linkwright.fields.base import Field, Schema
+from linkwright.fields.nodes import Node
+from linkwright.fields.reading import Place, Reader
+from linkwright.fields.references import PLACE
+from linkwright.fields.tables import Listed
+from linkwright.units import number
+from linkwright.words import Message, _
+
+if TYPE_CHECKING:
+    from linkwright.core.arrays import Complexes
+
+Ring = tuple[tuple[float, float], ...]
+_FORM = "[[0 mm, 0 mm], [40 mm, 0 mm], [0 mm, 30 mm]]"
+
+
+@dataclass(frozen=True)
+class Outline(Field):
+    """The corners of a polygon in order, ``[[x, y], …]``; the first one is not repeated at the end."""
+
+    def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Ring | None:
+        items = reader.items(node, place, None, _FORM)
+        if items is None:
+            return None
+        with reader.plain_numbers(_("an outline")):
+            places = [PLACE.read(reader, each, place.child(str(k)), {}) for k, each in enumerate(items)]
+        if any(each is None for each in places):
+            return None
+        corners = [(x, y) for x, y in filter(None, places)]
+        return without_repeats(corners)
+
+    def shape(self) -> Schema:
+        return {"type": "array", "items": PLACE.shape(), "minItems": 3}
+
+    def written(self, value: Any) -> Any:
+        return [PLACE.written(each) for each in value]
+
+
+@dataclass(frozen=True)
+class Holes(Listed):
+    """The outlines of what is cut out of a plate."""
+
+    item: Field = Outline()
+    form: str = f"[{_FORM}]"
+
+    def written(self, value: Any) -> Any:
+        return [self.item.written(each) for each in value]
+
+
+def without_repeats(corners: Sequence[tuple[float, float]]) -> Ring:
+    """Corners without those that are at the place of the one before."""
+    found = [each for each, before in zip(corners, (None, *corners), strict=False) if each != before]
+    return tuple(found[:-1] if len(found) > 1 and found[0] == found[-1] else found)
+
+
+def fault_of(rings: Sequence[Ring]) -> tuple[Message, Message] | None:
+    """What is wrong with an outline and the holes in it, and what to do; None where nothing is."""
+    for index, ring in enumerate(rings):
+        if len(ring) < 3:
+            return _("an outline needs three corners or more", code="shapes.few_corners"), _("add corners")
+        if not _area(ring):
+            return _("the outline has no area", code="shapes.no_area"), _(
+                "move a corner out of the line of the others"
+            )
+        if index and not _inside(ring[0], rings[0]):
+            return (
+                _("hole {number} is not within the outline", code="shapes.hole_outside", number=index),
+                _("move it, or make the outline larger"),
+            )
+        if any(_inside(ring[0], other) for other in rings[1:index]):
+            return (
+                _("hole {number} is within another hole", code="shapes.hole_in_hole", number=index),
+                _("remove it: there is nothing to cut"),
+            )
+    place = _crossing(rings)
+    if place is None:
+        return None
+    x, y = (f"{number(each, 6)} m" for each in place)
+    return (
+        _("the outline meets itself at [{x}, {y}]", code="shapes.crosses", x=x, y=y),
+        _("give the corners in the order in which they follow along the edge"),
+    )
+
+
+def _area(ring: Ring) -> float:
+    """Area, counter-clockwise positive; 0 where it is rounding."""
+    (x0, y0), size = ring[0], max(abs(each) for place in ring for each in place)
+    pairs = zip(ring, (*ring[1:], ring[0]), strict=True)
+    twice = sum((a - x0) * (d - y0) - (c - x0) * (b - y0) for (a, b), (c, d) in pairs)
+    return 0.5 * twice if abs(twice) > 1e-12 * size * size else 0.0
+
+
+def _inside(place: tuple[float, float], ring: Ring) -> bool:
+    """Whether a place is within a ring, by the even-odd rule."""
+    x, y = place
+    found = False
+    for (a, b), (c, d) in zip(ring, (*ring[1:], ring[0]), strict=True):
+        if (b > y) != (d > y) and x < a + (y - b) * (c - a) / (d - b):
+            found = not found
+    return found
+
+
+def _crossing(rings: Sequence[Ring]) -> tuple[float, float] | None:
+    """A place where two sides meet that do not follow each other, or where one turns back on the one before."""
+    import numpy as np
+
+    starts: Complexes = np.concatenate([np.array([complex(*each) for each in ring]) for ring in rings])
+    ends = np.concatenate([np.array([complex(*each) for each in (*ring[1:], ring[0])]) for ring in rings])
+    firsts = np.cumsum([0, *(len(ring) for ring in rings)])
+    before = np.arange(len(starts)) - 1
+    before[firsts[:-1]] = firsts[1:] - 1
+    ways = ends - starts
+    turns = ways[before].conj() * ways
+    back = (turns.real < 0.0) & (np.abs(turns.imag) <= 1e-12 * np.abs(turns))
+    if back.any():
+        at = starts[int(np.argmax(back))]
+        return float(at.real), float(at.imag)
+    for k, (start, way) in enumerate(zip(starts, ways, strict=True)):
+        apart = np.arange(k + 1, len(starts))
+        apart = apart[(before[apart] != k) & (apart != before[k])]
+        met = _meeting(start, way, starts[apart], ways[apart])
+        if met is not None:
+            return met
+    return None
+
+
+def _meeting(start: complex, way: complex, starts: Complexes, ways: Complexes) -> tuple[float, float] | None:
+    """A place where a side meets one of others."""
+    import numpy as np
+
+    def cross(a: Any, b: Any) -> Any:
+        return (np.conj(a) * b).imag
+
+    gaps, turn = starts - start, cross(way, ways)
+    level = np.abs(turn) <= 1e-14 * abs(way) * np.abs(ways)
+    safe = np.where(level, 1.0, turn)
+    own, other = cross(gaps, ways) / safe, cross(gaps, way) / safe
+    hits = ~level & (own >= 0.0) & (own <= 1.0) & (other >= 0.0) & (other <= 1.0)
+    share = np.stack([(np.conj(way) * gaps).real, (np.conj(way) * (gaps + ways)).real]) / abs(way) ** 2
+    on_line = level & (np.abs(cross(way, gaps)) <= 1e-12 * abs(way) * (np.abs(gaps) + abs(way)))
+    overlap = on_line & (share.max(axis=0, initial=-np.inf) >= 0.0) & (share.min(axis=0, initial=np.inf) <= 1.0)
+    if not (hits | overlap).any():
+        return None
+    index = int(np.argmax(hits | overlap))
+    part = own[index] if hits[index] else min(max(float(share[:, index].min()), 0.0), 1.0)
+    place = start + part * way
+    return float(place.real), float(place.imag)
