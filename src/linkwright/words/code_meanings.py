@@ -143,6 +143,7 @@ AREAS: Mapping[str, Message] = {
     "range": pgettext("finding code", "ranges of the input"),
     "report": pgettext("finding code", "reports"),
     "running": pgettext("finding code", "steady running: motor and flywheel"),
+    "shapes": pgettext("finding code", "shapes of links"),
     "sheet": pgettext("finding code", "drawing sheets"),
     "solve": pgettext("finding code", "the command solve"),
     "studio": pgettext("finding code", "the studio"),
