@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from linkwright.interference.relative_paths import RelativePaths
+from linkwright.interference.search import Search
 from linkwright.kinematics.motion import Motion
 from linkwright.shapes.shape import Shape
 
@@ -15,7 +17,8 @@ class Gap:
 
     ``size``: m, 0 or less where they overlap (then no more than that they do is meant); ``time`` s and ``input``
     (rad or m, the first driver's) there, ``place``: the middle between the nearest places, m, in frame axes;
-    ``spans``: intervals of time, s, in which the gap is below the clearance that was asked for.
+    ``spans``: intervals of time, s, in which the gap is below the clearance that was asked for; ``exact``: whether
+    it holds between the solved positions, or in these alone.
     """
 
     size: float
@@ -23,6 +26,7 @@ class Gap:
     input: float
     place: complex
     spans: tuple[tuple[float, float], ...] = ()
+    exact: bool = True
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +43,25 @@ def smallest_gaps(
     """The smallest gap of every pair over the cycle of a motion, to 1e-9 of the machine's size.
 
     No contact between positions is missed: a gap over an interval of time is at least that between the chords of the
-    paths, less how far paths leave their chords.
+    paths, less how far paths leave their chords. ``spans``: whether to find the intervals of time in which gaps are
+    below the ``clearance``, m.
     """
-    raise NotImplementedError
+    if spans:
+        raise NotImplementedError
+    asked = [*pairs]
+    if not asked:
+        return []
+    carriers = list(dict.fromkeys((one.carrier, other.carrier) for one, other in asked))
+    paths = RelativePaths(motion, carriers)
+    poses = [2 * carriers.index((one.carrier, other.carrier)) for one, other in asked]
+    search = Search(paths, [(one.shape, other.shape) for one, other in asked], poses)
+    found = search.nearest()
+    time = paths.time(found.piece, found.x)
+    where = paths.input(found.piece, time)
+    host = [(one, other)[pose & 1].carrier for (one, other), pose in zip(asked, found.pose.tolist(), strict=True)]
+    place, turn = paths.in_frame(host, found.piece, found.x)
+    middle = place + turn * found.place
+    return [
+        Gap(max(size, 0.0), at, value, each, exact=paths.exact)
+        for size, at, value, each in zip(*(each.tolist() for each in (found.size, time, where, middle)), strict=True)
+    ]

@@ -1,0 +1,151 @@
+"""Where links are in the axes of others over a cycle, as polynomials of its pieces."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+
+from linkwright.analysis.analysis import Analysis
+from linkwright.analysis.reachable_intervals import Ways
+from linkwright.core.arrays import Complexes, Flags, Floats, Indices
+from linkwright.curves.polynomials import POINTS, SERIES, SLOPE
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.placement import placements
+
+#: Pieces of a lap to begin with.
+PIECES = 24
+#: Poses nearer to each other than this share of the size are one, so that nothing jumps between two pieces.
+SAME = 1e-6
+#: Added to every signal, each of about size 1, so that what is zero but for rounding is not taken for a signal.
+_LEVEL = 2.0
+#: Signals of a pair of links: place, turn, place the other way (two components each), and the place's square.
+_OF_PAIR = 7
+_CURVATURE: Floats = (SLOPE @ SLOPE)[: POINTS - 2] @ SERIES
+
+
+class RelativePaths:
+    """Poses of the second link of some ``pairs`` in the axes of the first (pose 2k) and the other way (2k + 1).
+
+    A pose is a place z, m, and a turn u = exp(iφ): the point w of one link is at z + u·w in the axes of the other.
+    ``place``, ``turn``: Chebyshev coefficients (poses, pieces, orders) over places -1 to 1 of a piece;
+    ``place_curvature``, ``turn_curvature``, ``square_curvature`` (of |z|²): those of second derivatives by these.
+    ``exact``: whether they hold between the positions that were solved; if not, every position is a piece without
+    width. ``fresh``: pieces that do not go on from the one before.
+    """
+
+    def __init__(self, motion: Motion, pairs: Sequence[tuple[str, str]]) -> None:
+        self.motion, self.pairs = motion, [*pairs]
+        self.size = motion.mechanism.size
+        self.carriers = [*dict.fromkeys(link for pair in pairs for link in pair)]
+        self._analysis = Analysis.of(motion)
+        values = self._between() or self._positions()
+        self.exact = self._ways is not None
+        self._build(*values)
+
+    def _between(self) -> tuple[Floats, Floats, Floats] | None:
+        """The signals (signals, POINTS, pieces), and the ends of the pieces; None where nothing is known between the
+        positions, or something grows without bound."""
+        self._ways: Ways | None = self._analysis.ways
+        if self._ways is not None:
+            found = self._ways.curve(self._signals, "motion", self._count, PIECES)
+            known = np.isfinite(found.values).all() and not (found.unbounded | found.unresolved).any()
+            if known:
+                low, high = found.edges[:-1], found.edges[1:].copy()
+                high[np.flatnonzero(low[1:] == low[0])] = found.edges[-1]
+                return found.values, low, high
+        self._ways = None
+        return None
+
+    def _positions(self) -> tuple[Floats, Floats, Floats]:
+        """The same at the positions alone."""
+        motion = self._analysis.motion
+        values = self._signals(motion)
+        good = np.flatnonzero(motion.ok & np.isfinite(values).all(axis=0))
+        self._numbers = good
+        found = np.repeat(values[:, None, good], POINTS, axis=1)
+        return found, motion.time[good], motion.time[good]
+
+    @property
+    def _count(self) -> int:
+        return _OF_PAIR * len(self.pairs) + 4 * len(self.carriers)
+
+    def _signals(self, motion: Motion) -> Floats:
+        """Relative poses, and those of the links in the frame, (signals, n), in shares of the size."""
+        placed = placements(motion)
+        own = {
+            name: (each.origin[:, 0] + 1j * each.origin[:, 1], each.direction[:, 0] + 1j * each.direction[:, 1])
+            for name in self.carriers
+            for each in (placed[name],)
+        }
+        rows: list[Floats] = []
+        for first, second in self.pairs:
+            (place_a, turn_a), (place_b, turn_b) = own[first], own[second]
+            place, turn = turn_a.conj() * (place_b - place_a) / self.size, turn_a.conj() * turn_b
+            back = -turn.conj() * place
+            rows += [place.real, place.imag, turn.real, turn.imag, back.real, back.imag, np.abs(place) ** 2]
+        for place, turn in own.values():
+            rows += [place.real / self.size, place.imag / self.size, turn.real, turn.imag]
+        return np.stack(rows) + _LEVEL
+
+    def _build(self, values: Floats, low: Floats, high: Floats) -> None:
+        count, size = len(self.pairs), self.size
+        self.low, self.high = low, high
+        self.count = len(low)
+        self.way: Indices = np.cumsum(low == low[0]) - 1 if self.exact else np.zeros(len(low), dtype=np.intp)
+        values = np.moveaxis(values - _LEVEL, 1, 2)
+        of_pairs = values[: _OF_PAIR * count].reshape(count, _OF_PAIR, self.count, POINTS)
+        place, turn, back = (of_pairs[:, k] + 1j * of_pairs[:, k + 1] for k in (0, 2, 4))
+        places = size * np.stack([place, back], axis=1).reshape(2 * count, self.count, POINTS)
+        turns = np.stack([turn, turn.conj()], axis=1).reshape(2 * count, self.count, POINTS)
+        self.place, self.turn = places @ SERIES.T, turns @ SERIES.T
+        self.place_curvature, self.turn_curvature = places @ _CURVATURE.T, turns @ _CURVATURE.T
+        self.square_curvature: Floats = size * size * of_pairs[:, 6] @ _CURVATURE.T
+        own = values[_OF_PAIR * count :].reshape(len(self.carriers), 4, self.count, POINTS) @ SERIES.T
+        self._own_place, self._own_turn = size * (own[:, 0] + 1j * own[:, 1]), own[:, 2] + 1j * own[:, 3]
+        if not self.exact:
+            for each in (self.place_curvature, self.turn_curvature, self.square_curvature):
+                each[:] = 0.0
+
+    @cached_property
+    def ends(self) -> tuple[Complexes, Complexes]:
+        """Places and turns (poses, pieces, 2) at both ends of the pieces."""
+        signs = np.stack([(-1.0) ** np.arange(POINTS), np.ones(POINTS)], axis=1)
+        return self.place @ signs, self.turn @ signs
+
+    @cached_property
+    def fresh(self) -> Flags:
+        """Pieces (pieces,) that do not go on from the one before, as the first one."""
+        place, turn = self.ends
+        jump = np.abs(place[:, 1:, 0] - place[:, :-1, 1]) / self.size + np.abs(turn[:, 1:, 0] - turn[:, :-1, 1])
+        return np.append(True, (jump > SAME).any(axis=0))[: self.count]
+
+    def pose(self, pose: Indices, piece: Indices, x: Floats) -> tuple[Complexes, Complexes]:
+        """Places and turns (n,) of some poses at places ``x`` of pieces."""
+        basis = _basis(x)
+        return (self.place[pose, piece] * basis).sum(axis=-1), (self.turn[pose, piece] * basis).sum(axis=-1)
+
+    def in_frame(self, carriers: Sequence[str], piece: Indices, x: Floats) -> tuple[Complexes, Complexes]:
+        """Places and turns (n,) of links in the frame."""
+        number, basis = np.array([self.carriers.index(each) for each in carriers], dtype=np.intp), _basis(x)
+        place, turn = self._own_place[number, piece], self._own_turn[number, piece]
+        return (place * basis).sum(axis=-1), (turn * basis).sum(axis=-1)
+
+    def time(self, piece: Indices, x: Floats) -> Floats:
+        """Times, s, of places of pieces."""
+        place = self.low[piece] + 0.5 * (1.0 + x) * (self.high[piece] - self.low[piece])
+        return place if self._ways is None else self._ways.time(place, self.way[piece])
+
+    def input(self, piece: Indices, time: Floats) -> Floats:
+        """The first driver's coordinate at times, rad or m; NaN without a driver."""
+        motion = self._analysis.motion
+        if not motion.inputs:
+            return np.full(len(time), np.nan)
+        if self._ways is None:
+            return motion.input[self._numbers[piece]]
+        return np.array([self._analysis.resolver.input_at(float(each)) for each in time])
+
+
+def _basis(x: Floats) -> Floats:
+    return np.cos(np.arange(POINTS) * np.arccos(np.clip(x, -1.0, 1.0))[..., None])

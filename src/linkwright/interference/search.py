@@ -1,0 +1,167 @@
+"""The smallest gaps of pairs of shapes by branch and bound over intervals of time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from linkwright.core.arrays import Complexes, Floats, Indices
+from linkwright.interference.approaches import Approaches, Approaching, Bounds
+from linkwright.interference.features import Meetings, Outlines, PairsOfShapes, nearest_places
+from linkwright.interference.overlap import Overlaps
+from linkwright.interference.relative_paths import RelativePaths
+from linkwright.shapes.shape import Shape
+
+#: To which share of the machine's size gaps are found, and within which two of them are equal.
+TOLERANCE, EQUAL = 1e-9, 1e-12
+#: Parabolas towards the place of a smallest gap.
+PARABOLAS = 3
+#: Intervals are halved no more than so many times, and so many corners against sides are looked at together.
+HALVINGS, TOGETHER = 48, 400_000
+
+
+@dataclass(eq=False)
+class Nearest:
+    """Of every pair the smallest gap ``size``, m, found at ``x`` of a ``piece``, ``place`` the middle between the
+    nearest places in the axes of the side's link, which is that of the second shape where ``pose`` is odd."""
+
+    size: Floats
+    pose: Indices
+    corner: Indices
+    side: Indices
+    piece: Indices
+    x: Floats
+    width: Floats
+    place: Complexes
+
+    @classmethod
+    def of(cls, count: int) -> Nearest:
+        """Nothing found yet."""
+        pose, corner, side, piece = np.zeros((4, count), dtype=np.intp)
+        x, width = np.zeros((2, count))
+        return cls(np.full(count, np.inf), pose, corner, side, piece, x, width, np.zeros(count, dtype=complex))
+
+
+class Search:
+    """Pairs of shapes, the second of each in its ``pose`` in the axes of the first."""
+
+    def __init__(self, paths: RelativePaths, shapes: Sequence[tuple[Shape, Shape]], poses: Sequence[int]) -> None:
+        self.paths, self.tolerance = paths, TOLERANCE * paths.size
+        self._equal = EQUAL * paths.size
+        self.outlines = Outlines({id(each): each for pair in shapes for each in pair}.values())
+        self.pairs = PairsOfShapes(self.outlines, shapes, poses)
+        self.overlaps = Overlaps(self.pairs, shapes, paths)
+        self.approaching = Approaching(self.outlines, paths)
+        self.count = len(shapes)
+
+    def nearest(self) -> Nearest:
+        """The smallest gap of every pair."""
+        found = Nearest.of(self.count)
+        self._begin(found)
+        over = self._first(self.pairs.fine, found), self._expanded(found)
+        self._narrow(over[0], found)
+        self._narrow(over[1], found)
+        self._settle(found)
+        return found
+
+    def _begin(self, found: Nearest) -> None:
+        """Finds pairs that overlap where pieces do not go on from the ones before."""
+        fresh = np.flatnonzero(self.paths.fresh)
+        pair, piece = np.tile(np.arange(self.count), len(fresh)), np.repeat(fresh, self.count)
+        over = np.flatnonzero(self.overlaps.at(pair, piece, np.full(len(pair), -1.0)))[::-1]
+        found.size[pair[over]], found.piece[pair[over]], found.x[pair[over]] = -np.inf, piece[over], -1.0
+
+    def _first(self, meetings: Meetings, found: Nearest) -> Approaches:
+        """Meetings over all pieces in which they may be nearest."""
+        parts = []
+        together = max(1, TOGETHER // max(1, self.paths.count))
+        for begin in range(0, max(1, len(meetings.pair)), together):
+            some = meetings.taken(slice(begin, begin + together))
+            some = some.taken(found.size[some.pair] > 0.0)
+            over = self.approaching.over_pieces(some)
+            parts.append(self._nearer(over, found))
+        return Approaches.joined(parts)
+
+    def _expanded(self, found: Nearest) -> Approaches:
+        """The corners and sides of groups over pieces in which they may be nearest."""
+        parts = []
+        over = self._first(self.pairs.coarse, found)
+        for begin in range(0, max(1, len(over)), TOGETHER // 64):
+            some = over.taken(slice(begin, begin + TOGETHER // 64))
+            meetings, group = self.pairs.expanded(some.meetings)
+            parts.append(self._nearer(self.approaching.again(meetings, some.taken(group)), found))
+        return Approaches.joined(parts)
+
+    def _narrow(self, over: Approaches, found: Nearest) -> None:
+        """Halves intervals until none can have a smaller gap than is found."""
+        over = self._nearer(over, found)
+        for turn in range(HALVINGS):
+            if not len(over):
+                return
+            if not turn:
+                over = self.approaching.with_curvatures(over)
+                over = self._nearer(over, found)
+            over = self._nearer(self.approaching.halves(over), found)
+
+    def _nearer(self, over: Approaches, found: Nearest) -> Approaches:
+        """Takes the gaps at the ends of intervals, and keeps the intervals in which there may be smaller ones."""
+        if not len(over):
+            return over
+        bounds = self.approaching.bounds(over)
+        own, meetings = self.outlines, over.meetings
+        slack = own.corner_slack[meetings.corner] + own.side_slack[meetings.side]
+        radius = own.corner_radius[meetings.corner] + own.side_radius[meetings.side]
+        self._take(over, bounds, slack - radius, found)
+        least, best = bounds.least - slack - radius, found.size[meetings.pair]
+        return over.taken((least < best - self.tolerance) & (best > 0.0))
+
+    def _take(self, over: Approaches, bounds: Bounds, more: Floats, found: Nearest) -> None:
+        """Takes the gaps at the ends of intervals as the smallest ones where they are."""
+        pair = over.meetings.pair
+        size = np.minimum(bounds.first, bounds.last) + more
+        size[bounds.crosses] = np.minimum(size[bounds.crosses], 0.0)
+        better = np.flatnonzero(size < found.size[pair] - self._equal)
+        if not len(better):
+            return
+        best = found.size.copy()
+        np.minimum.at(best, pair[better], size[better])
+        better = better[size[better] <= best[pair[better]] + self._equal]
+        at_end = bounds.last[better] < bounds.first[better]
+        x = np.where(at_end, over.high[better], over.low[better])
+        later_first = np.lexsort((-x, -over.piece[better]))
+        better, x, taken = better[later_first], x[later_first], pair[better][later_first]
+        found.size[taken], found.x[taken], found.piece[taken] = size[better], x, over.piece[better]
+        found.pose[taken] = over.meetings.pose[better]
+        found.corner[taken], found.side[taken] = over.meetings.corner[better], over.meetings.side[better]
+        found.width[taken] = over.high[better] - over.low[better]
+
+    def _settle(self, found: Nearest) -> None:
+        """Moves places to where gaps are smallest within the tolerance, by parabolas."""
+        own = self.outlines
+        begin, end = own.corner_radius[found.corner], own.side_radius[found.side]
+        away = 0.5 * found.width
+        for _ in range(PARABOLAS):
+            middle = np.clip(found.x, -1.0 + away, 1.0 - away)
+            low, here, high = (self._apart(found, middle + k * away)[0] for k in (-1, 0, 1))
+            bend = low - 2.0 * here + high
+            with np.errstate(invalid="ignore", divide="ignore"):
+                x = middle + away * np.clip(0.5 * (low - high) / bend, -1.0, 1.0)
+            x = np.where((bend > 0.0) & (found.size > self.tolerance), x, found.x)
+            better = self._apart(found, x)[0] < self._apart(found, found.x)[0]
+            found.x, away = np.where(better, x, found.x), 0.125 * away
+        apart, corner, near = self._apart(found, found.x)
+        found.size = np.minimum(found.size, apart - begin - end)
+        found.size[found.size <= self.tolerance] = 0.0
+        with np.errstate(invalid="ignore", divide="ignore"):
+            way = np.where(apart > 0.0, (near - corner) / apart, 0.0)
+        found.place = 0.5 * (corner + near + (begin - end) * way)
+
+    def _apart(self, found: Nearest, x: Floats) -> tuple[Floats, Complexes, Complexes]:
+        """Distances of the corners from the sides at places of pieces, and both nearest places."""
+        own = self.outlines
+        place, turn = self.paths.pose(found.pose, found.piece, x)
+        corner = place + turn * own.corner[found.corner]
+        near = nearest_places(corner, own.begin[found.side], own.along[found.side])
+        return np.abs(corner - near), corner, near
