@@ -1,0 +1,72 @@
+"""Bodies: stacks of prisms with exact outlines, at their places in the machine."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from linkwright.core.arrays import Complexes
+from linkwright.shapes.loop import Loop
+
+#: Largest distance between an arc and the chords that stand for it, m.
+FLATTENING = 1e-5
+
+
+@dataclass(frozen=True, eq=False)
+class Section:
+    """A prism between the heights ``low`` and ``high``, m: the loops of its outline, outer ones counter-clockwise,
+    inner ones clockwise."""
+
+    loops: tuple[Loop, ...]
+    low: float
+    high: float
+
+    @cached_property
+    def extent(self) -> float:
+        """Width and height of the outline together, m, by which sections are told wider and narrower."""
+        places = np.concatenate([loop.points(FLATTENING) for loop in self.loops])
+        return float(np.ptp(places.real) + np.ptp(places.imag))
+
+
+@dataclass(frozen=True)
+class Pose:
+    """Where a body is in the machine: its origin ``at`` (m) and its x axis ``along`` (a unit complex number) in the
+    axes of the frame, its height ``z`` (m)."""
+
+    at: complex = 0.0
+    along: complex = 1.0
+    z: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """A part in space, as often as it has ``poses``: sections from below upwards, each touching the next.
+
+    Where two sections meet, the outline of one lies within the other's and is a single loop, as at the heads of a
+    pin; ``colour`` as #rrggbb.
+    """
+
+    name: str
+    sections: tuple[Section, ...]
+    poses: tuple[Pose, ...] = (Pose(),)
+    colour: str = "#9fb4c8"
+
+
+def regions(loops: Sequence[Loop]) -> list[tuple[Loop, ...]]:
+    """Outer loops, each with the inner ones that lie within it."""
+    found = [[loop] for loop in loops if loop.area > 0]
+    for loop in loops:
+        if loop.area <= 0:
+            start = loop.edges[0].start
+            around = [each for each in found if _inside(start, each[0].points(FLATTENING))]
+            min(around, key=lambda each: each[0].area).append(loop)
+    return [tuple(each) for each in found]
+
+
+def _inside(place: complex, corners: Complexes) -> bool:
+    """Whether a place lies within a polygon: by the turns of its corners about the place."""
+    way = corners - place
+    return bool(abs(np.angle(np.roll(way, -1) / way).sum()) > np.pi)
