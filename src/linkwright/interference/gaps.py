@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from linkwright.interference.relative_paths import RelativePaths
 from linkwright.interference.search import Search
+from linkwright.interference.spans import Spans
 from linkwright.kinematics.motion import Motion
 from linkwright.shapes.shape import Shape
 
@@ -46,8 +49,6 @@ def smallest_gaps(
     paths, less how far paths leave their chords. ``spans``: whether to find the intervals of time in which gaps are
     below the ``clearance``, m.
     """
-    if spans:
-        raise NotImplementedError
     asked = [*pairs]
     if not asked:
         return []
@@ -61,7 +62,12 @@ def smallest_gaps(
     host = [(one, other)[pose & 1].carrier for (one, other), pose in zip(asked, found.pose.tolist(), strict=True)]
     place, turn = paths.in_frame(host, found.piece, found.x)
     middle = place + turn * found.place
-    return [
-        Gap(max(size, 0.0), at, value, each, exact=paths.exact)
+    gaps = [
+        Gap(size, at, value, each, exact=paths.exact)
         for size, at, value, each in zip(*(each.tolist() for each in (found.size, time, where, middle)), strict=True)
     ]
+    if spans:
+        close = np.flatnonzero((found.size < clearance) | (found.size == 0.0))
+        for k, each in zip(close.tolist(), Spans(search, close, clearance).found(), strict=True):
+            gaps[k] = replace(gaps[k], spans=each)
+    return gaps

@@ -137,6 +137,20 @@ class RelativePaths:
         place = self.low[piece] + 0.5 * (1.0 + x) * (self.high[piece] - self.low[piece])
         return place if self._ways is None else self._ways.time(place, self.way[piece])
 
+    @cached_property
+    def duration(self) -> float:
+        """Time of all pieces together, s."""
+        return float(self._widths.sum())
+
+    @cached_property
+    def _widths(self) -> Floats:
+        every, ones = np.arange(self.count), np.ones(self.count)
+        return np.abs(self.time(every, ones) - self.time(every, -ones))
+
+    def share(self, piece: Indices) -> Floats:
+        """Shares (n,) of that time in pieces."""
+        return self._widths[piece] / (self.duration or 1.0)
+
     def input(self, piece: Indices, time: Floats) -> Floats:
         """The first driver's coordinate at times, rad or m; NaN without a driver."""
         motion = self._analysis.motion

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from linkwright.core.arrays import Complexes, Floats, Indices
+from linkwright.core.arrays import Complexes, Flags, Floats, Indices
 from linkwright.interference.approaches import Approaches, Approaching, Bounds
 from linkwright.interference.features import Meetings, Outlines, PairsOfShapes, nearest_places
 from linkwright.interference.overlap import Overlaps
@@ -20,6 +20,9 @@ TOLERANCE, EQUAL = 1e-9, 1e-12
 PARABOLAS = 3
 #: Intervals are halved no more than so many times, and so many corners against sides are looked at together.
 HALVINGS, TOGETHER = 48, 400_000
+
+#: Takes those that are near enough to be looked at more closely.
+Near = Callable[[Approaches], Approaches]
 
 
 @dataclass(eq=False)
@@ -60,9 +63,13 @@ class Search:
         """The smallest gap of every pair."""
         found = Nearest.of(self.count)
         self._begin(found)
-        over = self._first(self.pairs.fine, found), self._expanded(found)
-        self._narrow(over[0], found)
-        self._narrow(over[1], found)
+        chosen = found.size > 0.0
+
+        def near(over: Approaches) -> Approaches:
+            return self._nearer(over, found)
+
+        over = Approaches.joined([self._first(self.pairs.fine, near, chosen), self._expanded(near, chosen)])
+        self._narrow(over, found)
         self._settle(found)
         return found
 
@@ -73,25 +80,40 @@ class Search:
         over = np.flatnonzero(self.overlaps.at(pair, piece, np.full(len(pair), -1.0)))[::-1]
         found.size[pair[over]], found.piece[pair[over]], found.x[pair[over]] = -np.inf, piece[over], -1.0
 
-    def _first(self, meetings: Meetings, found: Nearest) -> Approaches:
-        """Meetings over all pieces in which they may be nearest."""
+    def within(self, chosen: Flags, reach: float) -> Approaches:
+        """Corners and sides of chosen pairs (pairs,) over pieces in which they may be nearer than ``reach``, m."""
+        limits = np.where(chosen, reach, -np.inf)
+
+        def near(over: Approaches) -> Approaches:
+            bounds = self.approaching.bounds(over)
+            return over.taken(bounds.least - self.radius(over.meetings) < limits[over.meetings.pair])
+
+        parts = (self._first(self.pairs.fine, near, chosen), self._expanded(near, chosen))
+        return Approaches.joined(parts)
+
+    def radius(self, meetings: Meetings) -> Floats:
+        """Radii of corners and sides together, with the slack of groups of these, m."""
+        own, corner, side = self.outlines, meetings.corner, meetings.side
+        slack = own.corner_slack[corner] + own.side_slack[side]
+        return own.corner_radius[corner] + own.side_radius[side] + slack
+
+    def _first(self, meetings: Meetings, near: Near, chosen: Flags) -> Approaches:
+        """Meetings of chosen pairs over all pieces, of which those are taken that are ``near``."""
         parts = []
         together = max(1, TOGETHER // max(1, self.paths.count))
         for begin in range(0, max(1, len(meetings.pair)), together):
             some = meetings.taken(slice(begin, begin + together))
-            some = some.taken(found.size[some.pair] > 0.0)
-            over = self.approaching.over_pieces(some)
-            parts.append(self._nearer(over, found))
+            parts.append(near(self.approaching.over_pieces(some.taken(chosen[some.pair]))))
         return Approaches.joined(parts)
 
-    def _expanded(self, found: Nearest) -> Approaches:
-        """The corners and sides of groups over pieces in which they may be nearest."""
+    def _expanded(self, near: Near, chosen: Flags) -> Approaches:
+        """The corners and sides of groups of chosen pairs over pieces, of which those are taken that are ``near``."""
         parts = []
-        over = self._first(self.pairs.coarse, found)
+        over = self._first(self.pairs.coarse, near, chosen)
         for begin in range(0, max(1, len(over)), TOGETHER // 64):
             some = over.taken(slice(begin, begin + TOGETHER // 64))
             meetings, group = self.pairs.expanded(some.meetings)
-            parts.append(self._nearer(self.approaching.again(meetings, some.taken(group)), found))
+            parts.append(near(self.approaching.again(meetings, some.taken(group))))
         return Approaches.joined(parts)
 
     def _narrow(self, over: Approaches, found: Nearest) -> None:
@@ -111,11 +133,11 @@ class Search:
             return over
         bounds = self.approaching.bounds(over)
         own, meetings = self.outlines, over.meetings
+        reach = self.radius(meetings)
         slack = own.corner_slack[meetings.corner] + own.side_slack[meetings.side]
-        radius = own.corner_radius[meetings.corner] + own.side_radius[meetings.side]
-        self._take(over, bounds, slack - radius, found)
-        least, best = bounds.least - slack - radius, found.size[meetings.pair]
-        return over.taken((least < best - self.tolerance) & (best > 0.0))
+        self._take(over, bounds, 2.0 * slack - reach, found)
+        best = found.size[meetings.pair]
+        return over.taken((bounds.least - reach < best - self.tolerance) & (best > 0.0))
 
     def _take(self, over: Approaches, bounds: Bounds, more: Floats, found: Nearest) -> None:
         """Takes the gaps at the ends of intervals as the smallest ones where they are."""
