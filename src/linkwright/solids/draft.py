@@ -44,10 +44,7 @@ class Body:
 
 @dataclass
 class Draft:
-    """A machine with its motion and sizes, and what of its solids is there already.
-
-    ``axles``: wheels and cams besides the plates of their links: carrier, centre in its axes, plate.
-    """
+    """A machine with its motion and sizes, and what of its solids is there already."""
 
     mechanism: Mechanism
     motion: Motion
@@ -57,7 +54,6 @@ class Draft:
     joined: set[tuple[str, str]] = field(default_factory=set)
     notes: dict[Message, None] = field(default_factory=dict)
     bores: dict[str, dict[complex, float]] = field(default_factory=dict)
-    axles: list[tuple[str, complex, str]] = field(default_factory=list)
 
     @cached_property
     def carriers(self) -> Carriers:
@@ -127,6 +123,11 @@ class Draft:
     def known(self, name: str) -> str:
         """The name of a solid; empty where there is none of that name."""
         return name if name in self.solids else ""
+
+    def free_name(self, name: str) -> str:
+        """A name that no solid has: this one, or with a number."""
+        names = (name, *(f"{name} {number}" for number in range(2, len(self.solids) + 3)))
+        return next(each for each in names if each not in self.solids)
 
     def plate(self, name: str, sort: Sort, carrier: str, shape: Shape, link: str, *joined: str) -> None:
         """Adds a plate as thick and of the same material as those of a link."""

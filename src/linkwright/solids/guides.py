@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from linkwright.joints.lower_pair import SlidingJoint
 from linkwright.shapes.shape import Shape, bar, disc, joined, polygon
 from linkwright.solids.draft import Body, Draft
+from linkwright.solids.mounting import fasten
 from linkwright.solids.slots import Slot
 from linkwright.solids.solid import Solid
 
@@ -174,15 +175,6 @@ def _add_guide(draft: Draft, slide: Slide) -> None:
     shape = joined([Shape((slot.ring,)), *eyes])
     draft.plate(slide.plate, "guide", body.carrier, shape, slide.joint.guide)
     fasten(draft, slide.joint.name, body, slide.plate, posts(slot), radius)
-
-
-def fasten(draft: Draft, name: str, body: Body, plate: str, places: tuple[complex, ...], radius: float) -> None:
-    """Posts that hold a plate on that of a body."""
-    plates = tuple(each for each in (body.plate, plate) if each)
-    for number, place in enumerate(places, 1):
-        post = f"post {name}.{number}"
-        draft.add(Solid(post, "post", body.carrier, disc(place, radius), plates), *plates)
-        draft.bore(plates, {body.carrier: place}, radius)
 
 
 def add_blocks(draft: Draft, slides: list[Slide], alone: dict[str, Slide]) -> None:

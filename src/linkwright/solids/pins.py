@@ -6,16 +6,17 @@ from linkwright.shapes.shape import disc
 from linkwright.solids.draft import Draft
 from linkwright.solids.frame import COVER
 from linkwright.solids.guides import Slide, around_pin
+from linkwright.solids.mounting import Axle
 from linkwright.solids.solid import Solid
 
 #: Radius of a pin's head, as a share of the pin's (ISO 2341: 1.4 to 1.6).
 HEAD = 1.5
 
 
-def add_pins(draft: Draft, slides: list[Slide]) -> None:
-    """One pin for all joints at one place."""
+def add_pins(draft: Draft, slides: list[Slide], axles: list[Axle]) -> None:
+    """One pin for all joints at one place, through the wheels and cams that are there too."""
     for names in coaxial(draft):
-        _add_pin(draft, slides, names)
+        _add_pin(draft, slides, axles, names)
 
 
 def coaxial(draft: Draft) -> list[list[str]]:
@@ -39,15 +40,16 @@ def _places(draft: Draft, name: str) -> dict[str, complex]:
     return {draft.carriers.carrier(link): draft.carriers.place(link, name) for link in links}
 
 
-def _add_pin(draft: Draft, slides: list[Slide], names: list[str]) -> None:
+def _is_on(draft: Draft, axle: Axle, places: dict[str, complex]) -> bool:
+    return axle.carrier in places and abs(places[axle.carrier] - axle.centre) <= draft.near
+
+
+def _add_pin(draft: Draft, slides: list[Slide], axles: list[Axle], names: list[str]) -> None:
     places = {carrier: place for name in names for carrier, place in _places(draft, name).items()}
     plates = [each for carrier in places if (each := draft.bodies[carrier].plate)]
-    plates += [
-        plate
-        for carrier, centre, plate in draft.axles
-        if carrier in places and abs(places[carrier] - centre) <= draft.near
-    ]
-    around: list[str] = []
+    on = [each for each in axles if _is_on(draft, each, places)]
+    plates += [each.plate for each in on]
+    around = [each.hub for each in on]
     for carrier, place in places.items():
         reached, blocks = around_pin(draft, slides, carrier, place)
         plates += reached

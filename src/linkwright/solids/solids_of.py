@@ -6,12 +6,14 @@ from linkwright.formula.recently_made import Recent
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.sizing.sizes import sizes_of
+from linkwright.solids.cams import add_cams, plan_cams
 from linkwright.solids.draft import Draft
 from linkwright.solids.frame import add_frame
 from linkwright.solids.guides import add_blocks, add_guides, plan_blocks, plan_slides
 from linkwright.solids.links import add_links
 from linkwright.solids.pins import add_pins
 from linkwright.solids.solid import Solids
+from linkwright.solids.wheels import add_wheels, plan_wheels
 
 
 def solids(mechanism: Mechanism) -> Solids:
@@ -25,11 +27,12 @@ _recent: Recent[Mechanism, Solids] = Recent(16)
 def _solids(mechanism: Mechanism) -> Solids:
     sizes = sizes_of(mechanism)
     draft = Draft(mechanism, solve_motion(mechanism, failures="mark"), sizes, notes=dict.fromkeys(sizes.notes))
-    slides = plan_slides(draft)
+    slides, wheels, cams = plan_slides(draft), plan_wheels(draft), plan_cams(draft)
     alone = plan_blocks(draft, slides)
     add_frame(draft)
     add_links(draft)
     add_guides(draft, slides)
     add_blocks(draft, slides, alone)
-    add_pins(draft, slides)
+    axles = [*add_wheels(draft, wheels), *add_cams(draft, cams)]
+    add_pins(draft, slides, axles)
     return draft.finished()

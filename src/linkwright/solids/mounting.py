@@ -1,0 +1,48 @@
+"""How plates besides a link's own are held by it: posts, and hubs around the pins about which they turn."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from linkwright.shapes.shape import disc
+from linkwright.solids.draft import Body, Draft
+from linkwright.solids.solid import Solid
+
+#: Radius of a hub, as a share of its pin's.
+HUB = 1.6
+
+
+@dataclass(frozen=True)
+class Axle:
+    """A plate besides the link's own on one of its pins: the carrier, the centre in its axes, the plate, its hub."""
+
+    carrier: str
+    centre: complex
+    plate: str
+    hub: str = ""
+
+
+def fasten(draft: Draft, name: str, body: Body, plate: str, places: tuple[complex, ...], radius: float) -> None:
+    """Posts that hold a plate on that of a body."""
+    plates = tuple(each for each in (body.plate, plate) if each)
+    for number, place in enumerate(places, 1):
+        post = f"post {name}.{number}"
+        draft.add(Solid(post, "post", body.carrier, disc(place, radius), plates), *plates)
+        draft.bore(plates, {body.carrier: place}, radius)
+
+
+def on_hub(draft: Draft, body: Body, plate: str, centre: complex) -> Axle:
+    """A plate on the pin in its centre, with a hub to the plate of its links."""
+    radii = [draft.sizes.pin_radius[name] for name, place in draft.pinned(body) if abs(place - centre) <= draft.near]
+    if not radii or not body.plate:
+        return Axle(body.carrier, centre, plate)
+    hub, radius, plates = f"hub {plate.partition(' ')[2]}", HUB * max(radii), (body.plate, plate)
+    draft.add(Solid(hub, "post", body.carrier, disc(centre, radius), plates), *plates)
+    draft.bore(plates, {body.carrier: centre}, radius)
+    return Axle(body.carrier, centre, plate, hub)
+
+
+def eye(draft: Draft, body: Body, place: complex) -> float:
+    """How much room a point of some links needs in a plate, m: that of its pin with a wall around it."""
+    radii = (draft.sizes.pin_radius[name] for name, at in draft.pinned(body) if abs(at - place) <= draft.near)
+    return HUB * max(radii, default=0.0)
