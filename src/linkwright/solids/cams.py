@@ -12,7 +12,7 @@ from linkwright.joints.cam import CamJoint
 from linkwright.mechanism.wheels_and_cams import CamShape, full_turn
 from linkwright.shapes.shape import Piece, Shape, disc, polygon
 from linkwright.solids.draft import Body, Draft
-from linkwright.solids.mounting import Axle, eye, fasten, on_hub
+from linkwright.solids.mounting import Axle, add_disc, eye, fasten
 from linkwright.solids.solid import Solid
 
 #: Every which of the places of a drawn profile is a corner of the plate.
@@ -61,7 +61,7 @@ def _settle(draft: Draft, cam: Cam) -> None:
     inner = float(np.abs(cam.shape.profile(full_turn()) - cam.shape.centre).min())
     held = [*draft.points(body), *body.fixed]
     within = all(abs(each - centre) + eye(draft, body, each) <= inner for each in held)
-    if body.carrier != "frame" and body.shape is None and not body.slots and (within or len(held) == 1):
+    if draft.is_free(body) and (within or len(held) == 1):
         body.shape, body.sort, cam.plate = cam_shape(draft, cam), "cam", body.carrier
 
 
@@ -99,6 +99,7 @@ def _plan_face(draft: Draft, cam: Cam) -> None:
     """A flat face as a bar behind it, an edge as a wedge behind it, each with two posts to the follower."""
     place = draft.carriers.places[cam.joint.follower]
     depth = DEPTH * draft.sizes.width[cam.joint.follower]
+    corners: tuple[complex, ...]
     own, side = cmath.exp(1j * cam.shape.geometry.own), {"": 0.0, "left": 1.0, "right": -1.0}[cam.joint.side]
     outward = 1j * side * own if side else own
     if cam.joint.touch == "flat":
@@ -123,8 +124,8 @@ def add_cams(draft: Draft, found: list[Cam]) -> list[Axle]:
         body = draft.body(cam.joint.cam)
         if not cam.plate:
             cam.plate = draft.free_name(f"cam {cam.joint.cam}")
-            draft.plate(cam.plate, "cam", body.carrier, cam_shape(draft, cam), cam.joint.cam)
-            axles.append(on_hub(draft, body, cam.plate, draft.carriers.place(cam.joint.cam, cam.joint.centre)))
+            centre = draft.carriers.place(cam.joint.cam, cam.joint.centre)
+            axles.append(add_disc(draft, "cam", cam.joint.cam, cam.plate, cam_shape(draft, cam), centre))
             if cam.grooved:
                 radius = POST * draft.width(body)
                 fasten(draft, cam.plate, body, cam.plate, _groove_posts(draft, cam), radius)

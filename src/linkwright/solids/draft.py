@@ -8,11 +8,12 @@ from functools import cached_property
 
 import numpy as np
 
-from linkwright.core.arrays import Floats
+from linkwright.core.arrays import Complexes
 from linkwright.joints.lower_pair import SlidingJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import Placement, placements
-from linkwright.mechanism.construction import Construction, LinkShape
+from linkwright.mechanism.construction import Construction
+from linkwright.mechanism.link_shape import material_of
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.shapes.shape import Shape
 from linkwright.sizing.sizes import Sizes
@@ -73,7 +74,7 @@ class Draft:
     @cached_property
     def construction(self) -> Construction | None:
         """How the machine is made, as far as its file says it."""
-        return getattr(self.mechanism, "construction", None)
+        return self.mechanism.construction
 
     @property
     def near(self) -> float:
@@ -83,10 +84,6 @@ class Draft:
     def body(self, link: str) -> Body:
         """The links with which a link moves."""
         return self.bodies[self.carriers.carrier(link)]
-
-    def own_shape(self, link: str) -> LinkShape | None:
-        """The shape that the file gives a link."""
-        return getattr(self.mechanism.link(link), "shape", None)
 
     def width(self, body: Body) -> float:
         """The width of the plate of some links, m."""
@@ -131,12 +128,13 @@ class Draft:
 
     def plate(self, name: str, sort: Sort, carrier: str, shape: Shape, link: str, *joined: str) -> None:
         """Adds a plate as thick and of the same material as those of a link."""
-        thickness, density = self.sizes.thickness[link], self.density(link)
+        thickness, density = self.sizes.thickness[link], material_of(self.mechanism, link).density
         self.add(Solid(name, sort, carrier, shape, (name,), 0.0, thickness, density), *joined)
 
-    def density(self, link: str) -> float:
-        """The density of a link's material, kg/m³; 0 where nothing says of what it is made."""
-        return 0.0 if self.construction is None else self.construction.material.density
+    def is_free(self, body: Body) -> bool:
+        """Whether nothing says yet what the plate of some moving links is."""
+        own = any(self.mechanism.link(link).shape is not None for link in body.links)
+        return body.carrier != "frame" and body.shape is None and not body.slots and not own
 
     def bore(self, plates: Iterable[str], places: Mapping[str, complex], radius: float) -> None:
         """Holes in plates for a pin or a post, at its ``places`` by the carriers of the plates."""
@@ -154,10 +152,14 @@ class Draft:
         reached = displacement[np.isfinite(displacement)]
         return (float(reached.min()), float(reached.max())) if len(reached) else (0.0, 0.0)
 
-    def seen(self, link: str, point: str, on: str) -> Floats:
+    def seen(self, link: str, point: str, on: str) -> Complexes:
         """A point of a link at all positions that are reached, as complex numbers in the axes of a carrier, m."""
-        placed, x, y = self.placed[on], *self.mechanism.link(link).points[point]
-        gap = self.placed[link].world((x, y)) - placed.origin
+        return self.seen_place(self.carriers.carrier(link), self.carriers.place(link, point), on)
+
+    def seen_place(self, carrier: str, place: complex, on: str) -> Complexes:
+        """A place in the axes of a carrier, as complex numbers in those of another one, m."""
+        placed = self.placed[on]
+        gap = self.placed[carrier].world((place.real, place.imag)) - placed.origin
         found = (gap[:, 0] + 1j * gap[:, 1]) * (placed.direction[:, 0] - 1j * placed.direction[:, 1])
         return np.asarray(found[np.isfinite(found)])
 

@@ -11,7 +11,7 @@ COVER = "cover"
 def add_frame(draft: Draft) -> None:
     """The base plate around all that is held by the frame, and the cover."""
     body = draft.bodies["frame"]
-    own = draft.own_shape("frame")
+    own = draft.mechanism.frame.shape
     if takes_no_room(draft, body) and own is not None:
         return
     places = [place for _name, place in draft.pinned(body)]

@@ -157,7 +157,9 @@ def plan_blocks(draft: Draft, slides: list[Slide]) -> dict[str, Slide]:
         body = draft.body(slide.joint.block)
         alone = body.shape is None and not body.slots and not body.fixed and len(draft.points(body)) == 1
         if alone and body.carrier not in found and body.carrier != "frame":
-            body.shape, body.sort = _block(draft, slide), "block"
+            body.sort = "block"
+            if draft.is_free(body):
+                body.shape = _block(draft, slide)
             found[body.carrier] = slide
     return found
 

@@ -6,13 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from linkwright.shapes.shape import Piece, Shape, bar, disc, joined
+from linkwright.mechanism.link_shape import ends, hull, in_line, link_shape, shape_kind
+from linkwright.shapes.shape import Piece, Shape, bar, joined
 from linkwright.solids.carriers import Place
 from linkwright.solids.draft import Body, Draft
 from linkwright.solids.slots import slotted
-
-#: Points are in line where they leave it by less than this share of their extent.
-IN_LINE = 1e-6
 
 
 def add_links(draft: Draft) -> None:
@@ -26,16 +24,18 @@ def add_links(draft: Draft) -> None:
 
 def takes_no_room(draft: Draft, body: Body) -> bool:
     """Whether the file leaves out the shape of all links of a body."""
-    shapes = (draft.own_shape(link) for link in body.links)
-    return all(each is not None and each.kind == "none" for each in shapes)
+    return all(_kind(draft, link) == "none" for link in body.links)
+
+
+def _kind(draft: Draft, link: str) -> str:
+    return shape_kind(draft.mechanism.link(link))
 
 
 def shape_of_links(draft: Draft, body: Body) -> Shape:
     """One plate for links that move as one, with their slots."""
-    parts = [_of_link(draft, link) for link in body.links]
-    width = draft.width(body)
-    if len(body.links) > 1 or body.fixed:
-        parts.append(around([*draft.points(body), *body.fixed], width))
+    parts = [_of_link(draft, link) for link in body.links if _kind(draft, link) != "none"]
+    if body.fixed:
+        parts.append(around([*draft.points(body), *body.fixed], draft.width(body)))
     shape = joined(parts)
     for slot in body.slots:
         shape = slotted(shape, slot)
@@ -43,40 +43,17 @@ def shape_of_links(draft: Draft, body: Body) -> Shape:
 
 
 def _of_link(draft: Draft, link: str) -> Shape:
-    place = draft.carriers.places[link]
-    points = [complex(*each) for each in draft.mechanism.link(link).points.values()]
-    return moved(around(points, draft.sizes.width[link]), place)
+    """A link's own shape in the axes of its carrier, without holes."""
+    shape = link_shape(draft.mechanism, link, draft.sizes.width, lambda _pin: 0.0)
+    return moved(shape, draft.carriers.places[link])
 
 
-def around(points: Sequence[complex], width: float) -> Shape:
-    """A bar along points in line, the hull of others, a disc about one, all widened by half a width."""
-    places = np.array([*points], dtype=complex)
-    middle = places.mean()
-    extent = float(np.abs(places - middle).max())
-    if extent <= IN_LINE * width:
-        return disc(complex(places[0]), 0.5 * width)
-    far = places[int(np.abs(places - middle).argmax())]
-    along = (far - middle) / abs(far - middle)
-    local = (places - middle) * along.conjugate()
-    if float(np.abs(local.imag).max()) <= IN_LINE * extent:
-        return bar([places[int(local.real.argmin())], places[int(local.real.argmax())]], width)
-    return Shape((Piece((hull(places),), 0.5 * width, filled=True),))
-
-
-def hull(places: np.ndarray) -> np.ndarray:
-    """The corners of the convex hull, counter-clockwise (Andrew's monotone chain)."""
-    ordered = sorted({(each.real, each.imag) for each in places})
-
-    def half(points: Sequence[tuple[float, float]]) -> list[complex]:
-        found: list[complex] = []
-        for x, y in points:
-            place = complex(x, y)
-            while len(found) > 1 and ((found[-1] - found[-2]).conjugate() * (place - found[-1])).imag <= 0.0:
-                found.pop()
-            found.append(place)
-        return found[:-1]
-
-    return np.array(half(ordered) + half(ordered[::-1]))
+def around(places: Sequence[complex], width: float) -> Shape:
+    """A bar along places in line, the hull of others, a disc about one, all widened by half a width."""
+    found = [*places]
+    if in_line(found):
+        return bar(dict.fromkeys(ends(found)), width)
+    return Shape((Piece((np.array(hull(found)),), 0.5 * width, filled=True),))
 
 
 def moved(shape: Shape, place: Place) -> Shape:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from linkwright.shapes.shape import disc
+from linkwright.shapes.shape import Shape, disc
 from linkwright.solids.draft import Body, Draft
-from linkwright.solids.solid import Solid
+from linkwright.solids.solid import Solid, Sort
 
 #: Radius of a hub, as a share of its pin's.
 HUB = 1.6
@@ -31,15 +31,17 @@ def fasten(draft: Draft, name: str, body: Body, plate: str, places: tuple[comple
         draft.bore(plates, {body.carrier: place}, radius)
 
 
-def on_hub(draft: Draft, body: Body, plate: str, centre: complex) -> Axle:
-    """A plate on the pin in its centre, with a hub to the plate of its links."""
-    radii = [draft.sizes.pin_radius[name] for name, place in draft.pinned(body) if abs(place - centre) <= draft.near]
+def add_disc(draft: Draft, sort: Sort, link: str, name: str, shape: Shape, centre: complex) -> Axle:
+    """A wheel or a cam besides the plate of its link, with a hub to that around the pin in its centre."""
+    body = draft.body(link)
+    draft.plate(name, sort, body.carrier, shape, link)
+    radii = [draft.sizes.pin_radius[pin] for pin, place in draft.pinned(body) if abs(place - centre) <= draft.near]
     if not radii or not body.plate:
-        return Axle(body.carrier, centre, plate)
-    hub, radius, plates = f"hub {plate.partition(' ')[2]}", HUB * max(radii), (body.plate, plate)
+        return Axle(body.carrier, centre, name)
+    hub, radius, plates = draft.free_name(f"hub {link}"), HUB * max(radii), (body.plate, name)
     draft.add(Solid(hub, "post", body.carrier, disc(centre, radius), plates), *plates)
     draft.bore(plates, {body.carrier: centre}, radius)
-    return Axle(body.carrier, centre, plate, hub)
+    return Axle(body.carrier, centre, name, hub)
 
 
 def eye(draft: Draft, body: Body, place: complex) -> float:

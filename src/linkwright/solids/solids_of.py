@@ -17,7 +17,10 @@ from linkwright.solids.wheels import add_wheels, plan_wheels
 
 
 def solids(mechanism: Mechanism) -> Solids:
-    """Everything that takes room, with sizes of the file, else from the largest forces, else by rule."""
+    """Everything that takes room, with sizes of the file, else from the largest forces, else by rule.
+
+    Raises what solving the motion raises: guides are as long as their strokes ask for.
+    """
     return _recent.get(mechanism, None, lambda: _solids(mechanism))
 
 

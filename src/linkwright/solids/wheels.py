@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 
@@ -14,27 +14,28 @@ from linkwright.joints.rack import RackPair
 from linkwright.joints.rolling import RollingPair
 from linkwright.joints.toothed import WheelPair
 from linkwright.mechanism.wheels_and_cams import wheel_sizes
-from linkwright.shapes.shape import Piece, Shape, disc, polygon
+from linkwright.shapes.shape import Piece, Shape, disc
 from linkwright.solids.draft import Body, Draft
-from linkwright.solids.mounting import Axle, eye, fasten, on_hub
+from linkwright.solids.mounting import Axle, add_disc, eye, fasten
+from linkwright.solids.planes import planes_of
+from linkwright.solids.racks import Rack, add_rack, rack_of, settle_rack
 from linkwright.words import _
 
-#: Corners of a ring; from its pitch circle to its rim, and height of a rack, in modules (root 1.25, rim 2.5).
+#: Corners of a ring; from its pitch circle to its rim in modules (root 1.25, rim 2.5).
 CORNERS, RIM = 96, 3.75
-#: The same without teeth, radius of a post, and what a rack is longer than its way: shares of the link's width.
-BARE, POST, BEYOND = 0.5, 0.15, 0.5
+#: The same without teeth, and radius of a post: shares of the link's width.
+BARE, POST = 0.5, 0.15
 
 
-@dataclass
+@dataclass(eq=False)
 class Wheel:
-    """A wheel on a link, or its rack.
+    """A wheel on a link.
 
     ``centre`` in the axes of its carrier, m; ``radius`` of the pitch circle and ``module`` m, 0 without teeth;
-    ``inside``: a ring, whose teeth point inwards. ``is_link``: whether it is the plate of its link; ``planes``: the
-    planes in which it runs, each a plate of its own.
+    ``inside``: a ring, whose teeth point inwards; ``is_link``: whether it is the plate of its link; ``plates``: its
+    discs by the planes in which it runs.
     """
 
-    joint: str
     body: Body
     link: str
     centre: complex
@@ -42,7 +43,7 @@ class Wheel:
     module: float
     inside: bool = False
     is_link: bool = False
-    planes: list[Plane] = field(default_factory=list)
+    plates: dict[int, str] = field(default_factory=dict)
 
     @property
     def tip(self) -> float:
@@ -51,67 +52,57 @@ class Wheel:
 
 
 @dataclass
-class Rack:
-    """A rack on a link: its ``outline`` and the places of its posts in the carrier's axes, m; as of a wheel."""
-
-    body: Body
-    link: str
-    outline: list[complex]
-    posts: tuple[complex, complex]
-    is_link: bool = False
-    planes: list[Plane] = field(default_factory=list)
-
-
-@dataclass
 class Wheels:
-    """All wheels and racks of a machine, each once; ``pairs`` of those that run in one plane, touching or not."""
+    """All wheels and racks of a machine, each once; ``pairs`` of those that run together, ``touching`` of those that
+    mesh or roll on each other, ``planes`` in which they do it."""
 
     wheels: list[Wheel] = field(default_factory=list)
     racks: list[Rack] = field(default_factory=list)
-    pairs: list[tuple[Wheel | Rack, Wheel | Rack, bool]] = field(default_factory=list)
+    pairs: list[tuple[Wheel | Rack, Wheel | Rack]] = field(default_factory=list)
+    touching: list[tuple[Wheel | Rack, Wheel | Rack]] = field(default_factory=list)
+    planes: list[tuple[Wheel | Rack, ...]] = field(default_factory=list)
 
 
 def plan_wheels(draft: Draft) -> Wheels:
     """Which wheels and racks there are; those around all points of their links become the plates of these."""
     found = Wheels()
     for joint in draft.mechanism.joints.values():
+        pair: tuple[Wheel | Rack, ...] = ()
         if isinstance(joint, WheelPair):
-            first, second = (_known(draft, found, each) for each in _pair(draft, joint))
-            found.pairs.append((first, second, isinstance(joint, RollingPair)))
+            pair = tuple(_known(draft, found, each) for each in _of_pair(draft, joint))
         elif isinstance(joint, RackPair):
-            rack = _rack(draft, joint)
+            rack = rack_of(draft, joint)
             found.racks.append(rack)
-            found.pairs.append((_known(draft, found, _pinion(draft, joint)), rack, True))
+            pair = (_known(draft, found, _pinion(draft, joint, rack)), rack)
+        if pair:
+            found.pairs.append((pair[0], pair[1]))
+            if not isinstance(joint, BeltPair):
+                found.touching.append((pair[0], pair[1]))
     for wheel in sorted(found.wheels, key=lambda each: -each.radius):
         _settle(draft, wheel)
     for rack in found.racks:
-        _settle_rack(draft, rack)
+        settle_rack(draft, rack)
+    found.planes = planes_of(found.pairs, lambda a, b: _collide(draft, a, b))
     belts = tuple(each.name for each in draft.mechanism.joints.values() if isinstance(each, BeltPair))
     if belts:
         draft.notes[_("Belts and chains take no room here: {names}.", names=belts)] = None
     return found
 
 
-def _pair(draft: Draft, joint: WheelPair) -> Iterator[Wheel]:
+def _of_pair(draft: Draft, joint: WheelPair) -> Iterator[Wheel]:
     sizes = wheel_sizes(joint, draft.mechanism)
     assert sizes is not None
-    teeth = sizes.teeth or (0.0, 0.0)
-    internal = isinstance(joint, RollingPair) and joint.mesh == "internal"
+    rolling, teeth = isinstance(joint, RollingPair), sizes.teeth or (0.0, 0.0)
     for k, link in enumerate(joint.links):
         radius = sizes.radii[k]
-        module = 2.0 * radius / teeth[k] if teeth[k] and isinstance(joint, RollingPair) else 0.0
-        centre = draft.carriers.place(link, joint.centres[k])
-        inside = internal and radius > sizes.radii[1 - k]
-        yield Wheel(joint.name, draft.body(link), link, centre, radius, module, inside)
+        module = 2.0 * radius / teeth[k] if teeth[k] and rolling else 0.0
+        inside = isinstance(joint, RollingPair) and joint.mesh == "internal" and radius > sizes.radii[1 - k]
+        yield Wheel(draft.body(link), link, draft.carriers.place(link, joint.centres[k]), radius, module, inside)
 
 
-def _pinion(draft: Draft, joint: RackPair) -> Wheel:
+def _pinion(draft: Draft, joint: RackPair, rack: Rack) -> Wheel:
     centre = draft.carriers.place(joint.pinion, joint.centre)
-    return Wheel(joint.name, draft.body(joint.pinion), joint.pinion, centre, joint.radius, _module(joint))
-
-
-def _module(joint: RackPair) -> float:
-    return joint.module or (0.0 if joint.teeth is None else 2.0 * joint.radius / joint.teeth)
+    return Wheel(draft.body(joint.pinion), joint.pinion, centre, joint.radius, rack.module)
 
 
 def _known(draft: Draft, found: Wheels, wheel: Wheel) -> Wheel:
@@ -126,63 +117,38 @@ def _known(draft: Draft, found: Wheels, wheel: Wheel) -> Wheel:
     return wheel
 
 
-def _rack(draft: Draft, joint: RackPair) -> Rack:
-    """A rectangle along the pitch line over all places of the pinion."""
-    body, module = draft.body(joint.rack), _module(joint)
-    width = draft.width(body)
-    way = draft.carriers.places[joint.rack].turn * cmath.exp(1j * joint.direction)
-    start = draft.carriers.place(joint.rack, joint.through)
-    seen = (draft.seen(joint.pinion, joint.centre, body.carrier) - start) * way.conjugate()
-    low, high = (float(each(seen.real)) for each in (np.min, np.max)) if len(seen) else (0.0, 0.0)
-    beyond = max(2.0 * module, BEYOND * width)
-    low, high = low - beyond, high + beyond
-    back = -max(RIM * module, BARE * width)
-    side = float(joint.side)
-    corners = [complex(low, side * back), complex(high, side * back)]
-    corners += [complex(high, side * module), complex(low, side * module)]
-    posts = complex(low - 0.5 * back, 0.5 * side * back), complex(high + 0.5 * back, 0.5 * side * back)
-    first, second = (start + way * each for each in posts)
-    return Rack(body, joint.rack, [start + way * each for each in corners], (first, second))
+def _collide(draft: Draft, one: Wheel | Rack, other: Wheel | Rack) -> bool:
+    """Whether two that do not mesh cannot run in one plane: they overlap at some position."""
+    if isinstance(one, Rack) or isinstance(other, Rack):
+        return False
+    if one.inside != other.inside:
+        ring, wheel = (one, other) if one.inside else (other, one)
+        return bool(_distance(draft, ring, wheel).max() + wheel.tip >= ring.tip)
+    return bool(one.inside or _distance(draft, one, other).min() <= one.tip + other.tip)
+
+
+def _distance(draft: Draft, one: Wheel, other: Wheel) -> np.ndarray:
+    """Of the centres of two wheels, m, at all positions."""
+    if one.body is other.body:
+        return np.array([abs(one.centre - other.centre)])
+    seen = draft.seen_place(other.body.carrier, other.centre, one.body.carrier)
+    return np.abs(seen - one.centre) if len(seen) else np.array([np.inf])
 
 
 def _settle(draft: Draft, wheel: Wheel) -> None:
     """Whether a wheel is its link's plate; what else that plate is to hold."""
     body = wheel.body
-    within = all(abs(each - wheel.centre) + eye(draft, body, each) <= wheel.tip for each in _held(draft, body))
-    centred = len(draft.points(body)) == 1 and not body.fixed
-    free = body.carrier != "frame" and body.shape is None and not body.slots
-    if free and not wheel.inside and (within or centred):
-        body.shape, body.sort, wheel.plate = wheel_shape(draft, wheel), "wheel", body.carrier
+    held = [*draft.points(body), *body.fixed]
+    within = all(abs(each - wheel.centre) + eye(draft, body, each) <= wheel.tip for each in held)
+    if draft.is_free(body) and not wheel.inside and (within or len(held) == 1):
+        body.shape, body.sort, wheel.is_link = wheel_shape(draft, wheel), "wheel", True
     elif wheel.inside:
-        body.fixed += _ring_posts(draft, wheel)
+        body.fixed += _posts(draft, wheel)
 
 
-def _held(draft: Draft, body: Body) -> list[complex]:
-    return [*draft.points(body), *body.fixed]
-
-
-def _settle_rack(draft: Draft, rack: Rack) -> None:
-    body, (a, b, _unused, d) = rack.body, rack.outline
-    along, across = (b - a) / abs(b - a), (d - a) / abs(d - a)
-    local = [((each - a) * along.conjugate()).real for each in draft.points(body)]
-    aside = [((each - a) * across.conjugate()).real for each in draft.points(body)]
-    free = body.carrier != "frame" and body.shape is None and not body.slots and not body.fixed
-    within = all(0 < x < abs(b - a) and 0 < y < abs(d - a) for x, y in zip(local, aside, strict=True))
-    if free and within:
-        body.shape, body.sort, rack.plate = polygon(_counter_clockwise(rack.outline)), "wheel", body.carrier
-    else:
-        body.fixed += rack.posts
-
-
-def _counter_clockwise(corners: list[complex]) -> list[complex]:
-    turned = ((corners[1] - corners[0]).conjugate() * (corners[2] - corners[1])).imag
-    return corners if turned > 0.0 else corners[::-1]
-
-
-def _ring_posts(draft: Draft, wheel: Wheel) -> tuple[complex, complex]:
+def _posts(draft: Draft, wheel: Wheel) -> tuple[complex, complex]:
     """Two places opposite each other in the rim of a ring, in line with the farthest point of its link."""
-    ways = [each - wheel.centre for each in draft.points(wheel.body)]
-    far = max(ways, key=abs)
+    far = max((each - wheel.centre for each in draft.points(wheel.body)), key=abs)
     way = far / abs(far) if abs(far) > draft.near else 1 + 0j
     middle = 0.5 * (wheel.radius + _rim(draft, wheel)) * way
     return wheel.centre - middle, wheel.centre + middle
@@ -205,25 +171,28 @@ def wheel_shape(draft: Draft, wheel: Wheel) -> Shape:
 
 def add_wheels(draft: Draft, found: Wheels) -> list[Axle]:
     """The plates of wheels and racks that are not their links', how they are held, and which are level."""
-    axles = [axle for wheel in found.wheels if not wheel.plate for axle in _add_wheel(draft, wheel)]
-    for rack in found.racks:
-        if not rack.plate:
-            rack.plate = draft.free_name(f"rack {rack.link}")
-            shape, radius = polygon(_counter_clockwise(rack.outline)), POST * draft.width(rack.body)
-            draft.plate(rack.plate, "wheel", rack.body.carrier, shape, rack.link)
-            fasten(draft, rack.plate, rack.body, rack.plate, rack.posts, radius)
-    for first, second, touching in found.pairs:
-        draft.level.append((first.plate, second.plate))
-        if touching:
-            draft.join(first.plate, second.plate)
+    axles: list[Axle] = []
+    for plane, members in enumerate(found.planes):
+        for each in members:
+            if each.is_link and not each.plates:
+                each.plates[plane] = each.body.plate
+            elif isinstance(each, Rack):
+                each.plates[plane] = add_rack(draft, each)
+            else:
+                each.plates[plane], axle = _add_wheel(draft, each)
+                axles += axle
+        names = [each.plates[plane] for each in members]
+        draft.level += pairwise(names)
+        for one, other in found.touching:
+            if one in members and other in members:
+                draft.join(one.plates[plane], other.plates[plane])
     return axles
 
 
-def _add_wheel(draft: Draft, wheel: Wheel) -> Iterator[Axle]:
-    body, shape = wheel.body, wheel_shape(draft, wheel)
-    wheel.plate = draft.free_name(f"wheel {wheel.link}")
-    draft.plate(wheel.plate, "wheel", body.carrier, shape, wheel.link)
-    if wheel.inside:
-        fasten(draft, wheel.plate, body, wheel.plate, _ring_posts(draft, wheel), POST * draft.width(body))
-    else:
-        yield on_hub(draft, body, wheel.plate, wheel.centre)
+def _add_wheel(draft: Draft, wheel: Wheel) -> tuple[str, list[Axle]]:
+    body, shape, name = wheel.body, wheel_shape(draft, wheel), draft.free_name(f"wheel {wheel.link}")
+    if not wheel.inside:
+        return name, [add_disc(draft, "wheel", wheel.link, name, shape, wheel.centre)]
+    draft.plate(name, "wheel", body.carrier, shape, wheel.link)
+    fasten(draft, name, body, name, _posts(draft, wheel), POST * draft.width(body))
+    return name, []
