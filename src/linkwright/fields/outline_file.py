@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from linkwright.core.attached import ATTACHED
 from linkwright.core.entry_points import loaded
-from linkwright.errors import LinkwrightError
+from linkwright.errors import Finding, LinkwrightError
 from linkwright.fields.nodes import Node
 from linkwright.fields.outline import Ring, without_repeats
 from linkwright.fields.reading import Place, Reader
 from linkwright.filesystem import allowed, below
 from linkwright.words import _
+
+#: What reads an outline; its room lies above this one.
+READ_OUTLINE = "linkwright.importers.dxf_outline:read_outline"
 
 
 class FileName(str):
@@ -34,11 +36,19 @@ def rings_of_file(reader: Reader, node: Node, place: Place, name: str) -> tuple[
     if path is None:
         return None
     try:
-        found = loaded(ATTACHED["read_outline"])(allowed(path))
+        rings, findings = loaded(READ_OUTLINE)(allowed(path))
     except LinkwrightError as error:
         reader.error(node, place, error.sentence, _("draw one closed outline in it, and the holes within"), "outline")
         return None
-    return tuple(without_repeats([(float(x), float(y)) for x, y in ring]) for ring in found)
+    for each in findings:
+        reader.error(node, place, _in_file(each), each.remedy, each.code, severity=each.severity)
+    return tuple(without_repeats(ring) for ring in rings) or None
+
+
+def _in_file(finding: Finding) -> str:
+    """What was found in a file, with its place there."""
+    where = ", ".join(filter(None, (finding.where, finding.key)))
+    return _("{name}: {cause}", name=where, cause=finding.message)
 
 
 def _path(reader: Reader, node: Node, place: Place, name: str) -> Path | None:

@@ -50,23 +50,34 @@ def read_entities(content: bytes, remarks: Remarks) -> DrawingFile | None:
 
     Raises LinkwrightError where ezdxf is missing.
     """
-    package("ezdxf", _("DXF drawings"))
-    logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # what it cannot copy is none of the reader's matter
-    from ezdxf import colors
-    from ezdxf.lldxf.const import DXFError
-
-    try:
-        document = _document(content)
-    except (DXFError, OSError, ValueError, LookupError) as error:
-        message = _("this is no DXF drawing that can be read ({reason})", reason=error)
-        remarks.remark("error", message, _("save it again as DXF, of any release"), "import.dxf.unreadable")
+    document = open_document(content, remarks)
+    if document is None:
         return None
+    from ezdxf import colors
+
     colours = {}
     for layer in document.layers:
         known = layer.rgb or (colors.aci2rgb(layer.color) if 0 < layer.color < 256 and layer.color != 7 else None)
         colours[layer.dxf.name] = "#" + bytes(known).hex() if known else ""
     entities = tuple(_flat(document.modelspace(), remarks, 0))
     return DrawingFile(entities, UNITS_BY_NUMBER.get(document.units), colours)
+
+
+def open_document(content: bytes, remarks: Remarks) -> Any | None:
+    """The document of a file; None, with an error among the remarks, for what is no DXF file.
+
+    Raises LinkwrightError where ezdxf is missing.
+    """
+    package("ezdxf", _("DXF drawings"))
+    logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # what it cannot copy is none of the reader's matter
+    from ezdxf.lldxf.const import DXFError
+
+    try:
+        return _document(content)
+    except (DXFError, OSError, ValueError, LookupError) as error:
+        message = _("this is no DXF drawing that can be read ({reason})", reason=error)
+        remarks.remark("error", message, _("save it again as DXF, of any release"), "import.dxf.unreadable")
+        return None
 
 
 def _document(content: bytes) -> Any:

@@ -28,11 +28,11 @@ ROWS = 256
 _OUTSIDE = _(
     "the hole of {diameter} mm in diameter at ({x}, {y}) mm breaks through the edge of its shape; make the shape "
     "wider there, or the pin thinner",
-    code="shapes.hole_outside",
+    code="shapes.bore_outside",
 )
 _OVERLAP = _(
     "the hole of {diameter} mm in diameter at ({x}, {y}) mm overlaps another one; make the pins thinner",
-    code="shapes.holes_overlap",
+    code="shapes.bores_overlap",
 )
 
 

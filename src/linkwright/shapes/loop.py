@@ -67,6 +67,15 @@ class Edge:
         ratio = math.sin(half * share) / math.sin(half)
         return self.start + ratio * cmath.exp(1j * half * (share - 1.0)) * (self.end - self.start)
 
+    def points(self, tolerance: float) -> list[complex]:
+        """Places on the edge from its start on, without its end, whose chords leave it by no more than ``tolerance``
+        (m)."""
+        if not self.bulge or self.start == self.end:
+            return [self.start]
+        reach = math.acos(max(1.0 - tolerance / self.radius, 0.0))
+        count = max(math.ceil(0.5 * abs(self.angle) / reach - 1e-9), 1)
+        return [self.start, *(self.at(k / count) for k in range(1, count))]
+
     def heading(self, share: float) -> float:
         """Direction (rad) in which the edge goes on at a share of its length."""
         return cmath.phase(self.end - self.start) + (share - 0.5) * self.angle
@@ -147,14 +156,7 @@ class Loop:
 
     def points(self, tolerance: float) -> Complexes:
         """Corners of a polygon on the outline, (k,), which leaves no arc by more than ``tolerance`` (m)."""
-        places = []
-        for edge in self.edges:
-            count = 1
-            if edge.bulge:
-                reach = math.acos(max(1.0 - tolerance / edge.radius, 0.0))
-                count = max(math.ceil(0.5 * abs(edge.angle) / reach - 1e-9), 1)
-            places += [edge.start, *(edge.at(k / count) for k in range(1, count))]
-        return np.array(places)
+        return np.array([place for edge in self.edges for place in edge.points(tolerance)])
 
 
 def circle(centre: complex, radius: float, clockwise: bool = False) -> Loop:

@@ -122,7 +122,7 @@ def test_holes_are_bored_last() -> None:
 
 
 @pytest.mark.parametrize(
-    ("hole", "code"), [((0.02j, 0.09), "shapes.hole_outside"), ((3j, 0.01), "shapes.hole_outside")]
+    ("hole", "code"), [((0.02j, 0.09), "shapes.bore_outside"), ((3j, 0.01), "shapes.bore_outside")]
 )
 def test_a_hole_through_the_edge_is_refused(hole: tuple[complex, float], code: str) -> None:
     with pytest.raises(RequestError, match=r"mm breaks through the edge") as refused:
@@ -133,7 +133,7 @@ def test_a_hole_through_the_edge_is_refused(hole: tuple[complex, float], code: s
 def test_holes_that_overlap_are_refused() -> None:
     with pytest.raises(RequestError, match="overlaps another one") as refused:
         boundary(Shape(bar([0j, 1 + 0j], 0.2).pieces, ((0j, 0.05), (0.08 + 0j, 0.05))))
-    assert refused.value.code == "shapes.holes_overlap"
+    assert refused.value.code == "shapes.bores_overlap"
 
 
 def test_a_line_without_width_is_refused() -> None:
