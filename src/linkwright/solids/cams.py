@@ -55,11 +55,11 @@ def _settle(draft: Draft, cam: Cam) -> None:
     """Whether a cam is its link's plate; what else that plate is to hold."""
     body = draft.body(cam.joint.cam)
     if cam.grooved:
-        body.fixed += _groove_posts(draft, cam)
+        body.fixed.append(_groove_posts(draft, cam))
         return
     centre = draft.carriers.place(cam.joint.cam, cam.joint.centre)
     inner = float(np.abs(cam.shape.profile(full_turn()) - cam.shape.centre).min())
-    held = [*draft.points(body), *body.fixed]
+    held = [*draft.points(body), *body.held]
     within = all(abs(each - centre) + eye(draft, body, each) <= inner for each in held)
     if draft.is_free(body) and (within or len(held) == 1):
         body.shape, body.sort, cam.plate = cam_shape(draft, cam), "cam", body.carrier
@@ -114,7 +114,7 @@ def _plan_face(draft: Draft, cam: Cam) -> None:
         corners = (edge, near - half, far - half, far + half, near + half)
         posts = (edge + 1.5 * outward * depth, edge + 2.5 * outward * depth)
     cam.outline, cam.posts = tuple(place.of(each) for each in corners), tuple(place.of(each) for each in posts)
-    draft.body(cam.joint.follower).fixed += cam.posts
+    draft.body(cam.joint.follower).fixed.append(cam.posts)
 
 
 def add_cams(draft: Draft, found: list[Cam]) -> list[Axle]:

@@ -30,17 +30,23 @@ SAME = 1e-9
 class Body:
     """Links that move as one: their ``carrier``, the ``links``, what the plate of theirs is to hold.
 
-    ``slots`` that are cut into the plate, ``fixed``: places (in the carrier's axes, m) of posts and blocks that it
-    reaches; ``plate``: its name, empty where they have none; ``shape``: that of the plate instead of the links' own.
+    ``slots`` that are cut into the plate; ``fixed``: places (in the carrier's axes, m) that it reaches besides the
+    points, those of the posts of one guide, ring or rack together; ``plate``: its name, empty where there is none;
+    ``shape``: that of the plate instead of the links' own.
     """
 
     carrier: str
     links: tuple[str, ...]
     slots: list[Slot] = field(default_factory=list)
-    fixed: list[complex] = field(default_factory=list)
+    fixed: list[tuple[complex, ...]] = field(default_factory=list)
     plate: str = ""
     sort: Sort = "link"
     shape: Shape | None = None
+
+    @property
+    def held(self) -> list[complex]:
+        """All places that the plate reaches besides the points of the links."""
+        return [each for places in self.fixed for each in places]
 
 
 @dataclass

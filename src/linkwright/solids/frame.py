@@ -17,7 +17,7 @@ def add_frame(draft: Draft) -> None:
     places = [place for _name, place in draft.pinned(body)]
     welded = ((link, point) for link in body.links[1:] for point in draft.mechanism.link(link).points)
     places += [draft.carriers.place(link, point) for link, point in welded]
-    places += body.fixed
+    places += body.held
     if own is None and not places:
         return
     body.plate = "frame"

@@ -17,6 +17,8 @@ from linkwright.solids.solid import Solid
 LENGTH, WALL, POST, PLAY = 1.5, 0.3, 0.2, 0.1
 #: A slide is a cylinder where the distance of its ends is never less than so many widths.
 CYLINDER = 2.0
+#: Length of a barrel at most, as a share of the shortest distance.
+BARREL = 0.94
 
 
 @dataclass(frozen=True)
@@ -55,7 +57,7 @@ def plan_slides(draft: Draft) -> list[Slide]:
     found = [_shifted(draft, each) for each in found]
     for slide in found:
         if slide.own:
-            draft.body(slide.joint.guide).fixed += posts(slide.slot)
+            draft.body(slide.joint.guide).fixed.append(posts(slide.slot))
     return found
 
 
@@ -76,29 +78,31 @@ def is_cylinder(draft: Draft, joint: SlidingJoint) -> bool:
     low, high = draft.stroke(joint)
     width = max(draft.sizes.width[link] for link, _point in ends)
     backwards = ((joint.guide, joint.through, joint.direction), (joint.block, joint.at, joint.block_angle + cmath.pi))
-    behind = all(_behind(draft, link, point, angle, width) for link, point, angle in backwards)
+    behind = all(_behind(draft, link, point, angle, BARREL * low) for link, point, angle in backwards)
     return behind and low > max(CYLINDER * width, 0.5 * (high - low))
 
 
-def _behind(draft: Draft, link: str, point: str, angle: float, width: float) -> bool:
-    """Whether no point of a link lies beside the line from its end, or far along it."""
+def _behind(draft: Draft, link: str, point: str, angle: float, reach: float) -> bool:
+    """Whether no point of a link lies beside the line from its end, or beyond a reach along it."""
     here, way = draft.carriers.place(link, point), cmath.exp(-1j * angle)
     local = [(place - here) * way for place in draft.points(draft.body(link))]
-    return all(abs(each.imag) <= draft.near and each.real <= width for each in local)
+    return all(abs(each.imag) <= draft.near and each.real <= reach for each in local)
 
 
 def _make_cylinder(draft: Draft, joint: SlidingJoint) -> None:
     """Barrel and rod as bars as long as the stroke needs them."""
     short, longest = draft.stroke(joint)
-    barrel = max(0.8 * short, min(0.62 * longest, 0.94 * short))
+    barrel = max(0.8 * short, min(0.62 * longest, BARREL * short))
     rod = max(longest - 0.92 * barrel, short - 0.98 * barrel)
     for link, point, angle, length, share in (
         (joint.guide, joint.through, joint.direction, barrel, 1.0),
         (joint.block, joint.at, joint.block_angle + cmath.pi, rod, 0.6),
     ):
         start, width = draft.carriers.place(link, point), draft.sizes.width[link]
-        end = start + cmath.rect(length, angle)
-        eyes = [disc(each, 0.5 * width) for each in draft.points(draft.body(link))]
+        points = draft.points(draft.body(link))
+        reach = max(((each - start) * cmath.exp(-1j * angle)).real for each in points)
+        end = start + cmath.rect(max(length, reach), angle)
+        eyes = [disc(start, 0.5 * width)]
         draft.body(link).shape = joined([bar([start, end], share * width), *eyes])
     draft.level.append((joint.guide, joint.block))
     draft.join(joint.guide, joint.block)
@@ -142,7 +146,7 @@ def _shifted(draft: Draft, slide: Slide) -> Slide:
         return slide
     reach = [block.local(corner).real for each in body.slots for corner in each.corners(each.wall)]
     shift = max(reach) + block.high + PLAY * slide.width
-    body.fixed.append(block.at(shift))
+    body.fixed.append((block.at(shift),))
     slot = replace(slide.slot, start=slide.slot.at(shift))
     if not slide.own:
         slots = draft.body(joint.guide).slots

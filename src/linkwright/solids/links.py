@@ -10,7 +10,7 @@ from linkwright.mechanism.link_shape import ends, hull, in_line, link_shape, sha
 from linkwright.shapes.shape import Piece, Shape, bar, joined
 from linkwright.solids.carriers import Place
 from linkwright.solids.draft import Body, Draft
-from linkwright.solids.slots import slotted
+from linkwright.solids.slots import slotted, tied
 
 
 def add_links(draft: Draft) -> None:
@@ -34,9 +34,9 @@ def _kind(draft: Draft, link: str) -> str:
 def shape_of_links(draft: Draft, body: Body) -> Shape:
     """One plate for links that move as one, with their slots."""
     parts = [_of_link(draft, link) for link in body.links if _kind(draft, link) != "none"]
-    if body.fixed:
-        parts.append(around([*draft.points(body), *body.fixed], draft.width(body)))
     shape = joined(parts)
+    for places in body.fixed:
+        shape = tied(shape, around(places, draft.width(body)))
     for slot in body.slots:
         shape = slotted(shape, slot)
     return shape

@@ -75,7 +75,7 @@ def settle_rack(draft: Draft, rack: Rack) -> None:
     if draft.is_free(body) and not body.fixed and all(_within(rack, each) for each in draft.points(body)):
         body.shape, body.sort, rack.is_link = rack.shape, "wheel", True
     else:
-        body.fixed += rack.posts
+        body.fixed.append(rack.posts)
 
 
 def _within(rack: Rack, place: complex) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -118,14 +118,25 @@ def _clipped(corners: Complexes, above: Complexes, *, closed: bool) -> Complexes
 
 
 def _tie(pieces: tuple[Piece, ...], slot: Slot) -> Iterator[Piece]:
-    """A bar from the wall of a slot to a plate that does not touch it."""
-    if not pieces:
+    """A bar from the wall of a slot to a plate that does not touch it, as wide as the plate there."""
+    for bar in between(pieces, (slot.ring,)):
+        yield from _beyond(bar, slot)
+
+
+def tied(shape: Shape, other: Shape) -> Shape:
+    """The union of two shapes, with a bar between them where they do not overlap."""
+    pieces = (*shape.pieces, *other.pieces, *between(shape.pieces, other.pieces))
+    return Shape(pieces, (*shape.holes, *other.holes))
+
+
+def between(pieces: Sequence[Piece], others: Sequence[Piece]) -> Iterator[Piece]:
+    """A bar as wide as a piece from there to the nearest of others, none where they touch."""
+    if not pieces or not others:
         return
-    ring = slot.ring
-    gaps = [(*nearest(each, ring), each) for each in pieces]
-    a, b, piece = min(gaps, key=lambda each: abs(each[0] - each[1]) - each[2].radius)
-    if abs(a - b) > piece.radius:
-        yield Piece((np.array([a, b]),), ring.radius)
+    gaps = [(*nearest(each, other), each, other) for each in pieces for other in others]
+    a, b, piece, other = min(gaps, key=lambda each: abs(each[0] - each[1]) - each[2].radius - each[3].radius)
+    if abs(a - b) > max(piece.radius, other.radius):
+        yield Piece((np.array([a, b]),), piece.radius or other.radius)
 
 
 def nearest(first: Piece, second: Piece) -> tuple[complex, complex]:

@@ -138,12 +138,12 @@ def _distance(draft: Draft, one: Wheel, other: Wheel) -> np.ndarray:
 def _settle(draft: Draft, wheel: Wheel) -> None:
     """Whether a wheel is its link's plate; what else that plate is to hold."""
     body = wheel.body
-    held = [*draft.points(body), *body.fixed]
+    held = [*draft.points(body), *body.held]
     within = all(abs(each - wheel.centre) + eye(draft, body, each) <= wheel.tip for each in held)
     if draft.is_free(body) and not wheel.inside and (within or len(held) == 1):
         body.shape, body.sort, wheel.is_link = wheel_shape(draft, wheel), "wheel", True
     elif wheel.inside:
-        body.fixed += _posts(draft, wheel)
+        body.fixed.append(_posts(draft, wheel))
 
 
 def _posts(draft: Draft, wheel: Wheel) -> tuple[complex, complex]:
