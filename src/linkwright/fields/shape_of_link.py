@@ -187,12 +187,10 @@ class ShapeField(Field):
         if key is None:
             return ()
         at, below = node.get(key) if isinstance(node, MappingNode) else node, place.child(key)
-        found = (values["outline"], *values.get("holes", ()))
-        if key == "file":
-            read = rings_of_file(reader, at or node, below, values["file"])
-            if read is None:
-                return None
-            found = (*read, *values.get("holes", ()))
+        drawn = rings_of_file(reader, at or node, below, values["file"]) if key == "file" else (values["outline"],)
+        if drawn is None:
+            return None
+        found = (*drawn, *values.get("holes", ()))
         fault = fault_of(found)
         if fault is not None:
             reader.error(at, below, *fault, "outline")

@@ -11,6 +11,7 @@ import pytest
 from ezdxf.document import Drawing
 from ezdxf.math import Matrix44
 
+import linkwright as lw
 from linkwright.core.plane import area
 from linkwright.importers.dxf_outline import read_outline
 
@@ -149,3 +150,28 @@ def test_hidden_layers_are_left_out(tmp_path: Path) -> None:
         pieces_of_bar(space)
 
     assert areas(saved(tmp_path, draw)) == pytest.approx([BAR_AREA], rel=1e-3)
+
+
+def with_file(folder: Path, name: str = "jaw.dxf") -> Path:
+    """A crank-rocker whose crank has the outline of a file next to it."""
+    text, crank = lw.gallery.content("crank_rocker").decode(), "crank: {points: [O1, A], length: 1 m"
+    assert crank in text
+    path = folder / "machine.yaml"
+    path.write_text(text.replace(crank, f"{crank}, shape: {{file: {name}}}"), encoding="utf-8")
+    return path
+
+
+def test_a_link_has_the_outline_of_a_file(tmp_path: Path) -> None:
+    saved(tmp_path, pieces_of_bar)
+    shape = lw.load(with_file(tmp_path)).links["crank"].shape
+    assert shape is not None
+    assert (shape.kind, len(shape.rings)) == ("outline", 1)
+    low, high = np.array(shape.rings[0]).min(axis=0), np.array(shape.rings[0]).max(axis=0)
+    assert np.array([low, high]) == pytest.approx(np.array([[-0.005, -0.005], [0.045, 0.005]]), abs=1e-6)
+
+
+def test_a_file_without_closed_outline_is_reported_at_the_key(tmp_path: Path) -> None:
+    saved(tmp_path, lambda space: space.add_line((0, 0), (10, 0)))
+    (finding,) = lw.check(with_file(tmp_path))
+    assert (finding.key, finding.code) == ("links.crank.shape.file", "import.dxf.open")
+    assert "jaw.dxf, LINE #2F, 0: a contour is open at (10, 0) mm" in str(finding)
