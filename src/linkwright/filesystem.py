@@ -5,7 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from pathlib import Path
@@ -157,6 +157,38 @@ def atomic_write(
     return target
 
 
+def write_together(contents: Mapping[Path, bytes], *, force: bool = True, remedy: str = "force=True") -> list[Path]:
+    """Write files, all of them or none, each to a temporary file first; folders are made where they are missing.
+
+    Raises RequestError where one cannot be written, and for a file that is there already unless ``force``.
+    """
+    targets = [allowed(path) for path in contents]
+    for target in targets:
+        refuse_folder(target.parent)
+    made = [make_folder(each) for each in dict.fromkeys(target.parent for target in targets) if not each.exists()]
+    waiting: dict[Path, Path] = {}
+    try:
+        for target, content in zip(targets, contents.values(), strict=True):
+            refuse_target(target, force=force, remedy=remedy)
+            waiting[target] = _temporary(target)
+            try:
+                with os.fdopen(_made(waiting[target], _USUAL), "wb") as stream:
+                    stream.write(content)
+            except OSError as problem:
+                raise _refused(target, problem) from None
+        for target, temporary in waiting.items():
+            os.replace(temporary, target)
+    except BaseException:
+        for temporary in waiting.values():
+            with suppress(OSError):
+                os.unlink(temporary)
+        for folder in reversed(made):
+            with suppress(OSError):
+                folder.rmdir()
+        raise
+    return targets
+
+
 def write_new(paths: Iterable[Path], content: bytes) -> Path:
     """Write to the first of the paths where no file is; raises RequestError where it cannot be written."""
     for path in paths:
@@ -198,9 +230,7 @@ def _lock(handle: int) -> None:
 
 def _replace(target: Path, content: bytes, force: bool, mode: int) -> None:
     """Unless ``force`` the name is taken first, so that one of two writers is refused."""
-    import secrets
-
-    temporary = target.parent / f".linkwright-{secrets.token_hex(8)}"
+    temporary = _temporary(target)
     created = [temporary]
     try:
         with os.fdopen(_made(temporary, mode), "wb") as stream:
@@ -217,6 +247,13 @@ def _replace(target: Path, content: bytes, force: bool, mode: int) -> None:
             with suppress(OSError):
                 os.unlink(each)
         raise
+
+
+def _temporary(target: Path) -> Path:
+    """A name that no file next to one has."""
+    import secrets
+
+    return target.parent / f".linkwright-{secrets.token_hex(8)}"
 
 
 def _made(path: Path, mode: int) -> int:

@@ -2,26 +2,98 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
+from linkwright.core.arguments import require
+from linkwright.core.attached import attached
+from linkwright.core.table import Table, Tabular
+from linkwright.errors import LinkwrightError
+from linkwright.fabrication.holes import Pose
 from linkwright.fabrication.part import Part
+from linkwright.fabrication.plates import Plates
+from linkwright.fabrication.turned import Turned
 from linkwright.layers.arrangement import Layers
+from linkwright.mechanism.construction import MATERIALS
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.words import _
 
 
 @dataclass(frozen=True, eq=False)
-class CutParts:
+class CutParts(Tabular):
     """The ``parts`` of a machine in the order of the list: plates from below, pins, spacers, washers."""
 
     mechanism: Mechanism
     layers: Layers
     parts: tuple[Part, ...]
+    notes: tuple[str, ...] = ()
 
     def __getitem__(self, name: str) -> Part:
         """The part of a name."""
         return next(each for each in self.parts if each.name == name)
 
+    @property
+    def mass(self) -> float:
+        """Of all parts together, kg."""
+        return sum(each.count * each.mass for each in self.parts)
+
+    @attached
+    def tables(self, language: str = "en") -> tuple[Table, ...]:
+        """The list of parts, and what its numbers mean."""
+        raise NotImplementedError
+
+    @attached
+    def data(self) -> dict[str, Any]:
+        """The parts as plain data, SI."""
+        raise NotImplementedError
+
+    @attached
+    def save(
+        self,
+        folder: str | Path,
+        forms: Sequence[str] = (),
+        language: str = "en",
+        *,
+        kerf: float | None = None,
+        sheet: tuple[float, float] | None = None,
+        force: bool = False,
+    ) -> list[Path]:
+        """Write drawings of all plates (``forms``: ``dxf``, ``svg``), the sheets on which they are nested, and the
+        list of parts (CSV, XLSX) into a folder.
+
+        ``kerf`` (m) and the width and height of a ``sheet`` (m) are those of the model unless given. Raises
+        LinkwrightError, and writes none, where one cannot be written or is there already unless ``force``.
+        """
+        raise NotImplementedError
+
 
 def cut_parts(mechanism: Mechanism) -> CutParts:
-    """The parts of a machine in the fewest layers in which nothing collides."""
+    """The parts of a machine in the fewest layers in which nothing collides.
+
+    Raises LinkwrightError where it has no such layers.
+    """
+    require(mechanism, Mechanism)
     raise NotImplementedError
+
+
+def parts_in(found: Layers) -> CutParts:
+    """The parts of a machine in layers; raises LinkwrightError where these conflict."""
+    if found.conflicts:
+        first = found.conflicts[0]
+        raise LinkwrightError(
+            _(
+                "{first} and {second} collide in any layers, so there are no parts to make; see linkwright layers",
+                code="cut.no_layers",
+                first=first.first,
+                second=first.second,
+            )
+        )
+    construction = found.mechanism.construction
+    material = MATERIALS["steel"] if construction is None else construction.material
+    fit, washer = (0.0, 0.0) if construction is None else (construction.fit, construction.washer or 0.0)
+    pose = Pose.of(found)
+    turned = Turned(found, pose, material.name, material.density, fit, washer)
+    parts = (*Plates(found, pose).parts(), *turned.pins(), *turned.rings())
+    return CutParts(found.mechanism, found, parts, found.solids.notes)

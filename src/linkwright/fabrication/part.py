@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
+from linkwright.shapes.boundary import boundary
+from linkwright.shapes.loop import Loop
 from linkwright.shapes.shape import Shape, disc
 
 Sort = Literal["plate", "pin", "spacer", "washer"]
@@ -70,6 +73,11 @@ class Part:
     def count(self) -> int:
         """How many are needed."""
         return len(self.places)
+
+    @cached_property
+    def loops(self) -> tuple[Loop, ...]:
+        """The outline: loops around material counter-clockwise, then those around openings and holes clockwise."""
+        return boundary(self.shape)
 
     def prisms(self) -> Iterator[Prism]:
         """What it consists of from below: a pin with heads of up to three, else of one."""

@@ -1,0 +1,100 @@
+"""Holes of plates: which pin or post goes through each, and whether it is pressed in or turns.
+
+A pin is pressed into its lowest plate, and into all that move with that one; in the others it turns, so that their
+holes are larger by the fit. A post is pressed into both its plates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from linkwright.fabrication.part import Hole
+from linkwright.kinematics.placement import placements
+from linkwright.kinematics.solve import solve_motion
+from linkwright.layers.arrangement import Layers
+from linkwright.solids.solid import Solid
+
+#: Places nearer to each other than this share of the machine are one.
+SAME = 1e-7
+
+
+def holes_of(layers: Layers, pose: Pose) -> Mapping[str, tuple[Hole, ...]]:
+    """The holes of all plates, by the names of the plates: what goes through them is where they are when the machine
+    is put together at one position."""
+    solids = layers.solids.by_name
+    pins = [each for each in solids.values() if each.sort in ("pin", "post")]
+    found = {}
+    for plate in solids.values():
+        through = [each for each in pins if plate.name in each.plates]
+        if plate.is_plate:
+            found[plate.name] = tuple(_holes(layers, pose, plate, through))
+    return found
+
+
+def _holes(layers: Layers, pose: Pose, plate: Solid, pins: list[Solid]) -> Iterator[Hole]:
+    fit = 0.0 if layers.mechanism.construction is None else layers.mechanism.construction.fit
+    for centre, radius in plate.shape.holes:
+        place = pose.world(plate.carrier, centre)
+        through = [each for each in pins if abs(pose.axis(each) - place) <= pose.near]
+        pin = max(through, key=pin_radius, default=None)  # a pin within a hub does not touch the plate
+        if pin is None:
+            yield Hole("", centre, radius, False)
+        else:
+            fixed = plate.name in fixed_plates(layers, pin)
+            yield Hole(pin.name, centre, pin_radius(pin) + (0.0 if fixed else 0.5 * fit), fixed)
+
+
+def axis(pin: Solid) -> complex:
+    """Where a pin or post is on what carries it, m."""
+    return complex(pin.shape.pieces[0].corners[0])
+
+
+def hubs_around(layers: Layers, pose: Pose, pin: Solid) -> list[Solid]:
+    """The posts around a pin: hubs that hold a wheel on its link, in which the pin turns."""
+    posts = (
+        each for each in layers.solids.by_name.values() if each.sort == "post" and {*each.plates} & {*pin.plates}
+    )
+    return [each for each in posts if abs(pose.axis(each) - pose.axis(pin)) <= pose.near]
+
+
+def pin_radius(pin: Solid) -> float:
+    """The radius of a pin or post, m."""
+    return pin.shape.pieces[0].radius
+
+
+def fixed_plates(layers: Layers, pin: Solid) -> frozenset[str]:
+    """The plates into which a pin is pressed: its lowest one and those that move with that; of a post all."""
+    solids = layers.solids.by_name
+    if pin.sort == "post":
+        return frozenset(pin.plates)
+    lowest = min(pin.plates, key=lambda plate: layers.height[plate])
+    return frozenset(plate for plate in pin.plates if solids[plate].carrier == solids[lowest].carrier)
+
+
+@dataclass(frozen=True)
+class Pose:
+    """Where the links are at the first position that is reached: origin (m) and turn (unit complex number)."""
+
+    links: Mapping[str, tuple[complex, complex]]
+    near: float
+
+    @classmethod
+    def of(cls, layers: Layers) -> Pose:
+        """The pose of a machine."""
+        motion = solve_motion(layers.mechanism, failures="mark")
+        first = int(motion.ok.argmax())
+        links = {
+            name: (complex(*each.origin[first]), complex(*each.direction[first]))
+            for name, each in placements(motion).items()
+        }
+        return cls(links, SAME * layers.mechanism.size)
+
+    def world(self, link: str, place: complex) -> complex:
+        """A place in a link's axes in those of the frame, m."""
+        origin, turn = self.links[link]
+        return origin + turn * place
+
+    def axis(self, pin: Solid) -> complex:
+        """Where a pin or post is, m."""
+        return self.world(pin.carrier, axis(pin))

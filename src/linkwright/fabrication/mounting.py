@@ -1,0 +1,62 @@
+"""Holes by which the base plate is screwed down: next to its corners, clear of pins and edges."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from linkwright.core.arrays import Complexes, Floats
+from linkwright.fabrication.part import Hole
+from linkwright.shapes.distance import contains
+from linkwright.shapes.shape import Shape
+
+#: Radius of a mounting hole as a share of that of the smallest pin, and the wall around it as a share of its radius.
+RADIUS, WALL = 0.75, 1.0
+#: Places along the longer side of the plate that are tried, and around each for the wall.
+GRID, ROUND = 60, 16
+
+
+def mounting_holes(shape: Shape, holes: Sequence[Hole], heads: float) -> tuple[Hole, ...]:
+    """Up to four holes, each as near as may be to another corner of the plate's box; ``heads``: how far from a pin's
+    centre its head reaches, as a multiple of the pin's radius."""
+    if not holes:
+        return ()
+    radius = RADIUS * min(each.radius for each in holes)
+    places = _places(shape, radius)
+    for hole in holes:
+        places = places[np.abs(places - hole.centre) > heads * hole.radius + (1.0 + WALL) * radius]
+    found: list[complex] = []
+    for corner in _corners(shape):
+        free = places
+        for each in found:
+            free = free[np.abs(free - each) > 2.0 * (1.0 + WALL) * radius]
+        if len(free):
+            found.append(complex(free[np.abs(free - corner).argmin()]))
+    return tuple(Hole("", each, radius, False) for each in found)
+
+
+def _box(shape: Shape) -> tuple[complex, complex]:
+    pieces = shape.pieces
+    low = [each.corners - each.radius * (1.0 + 1.0j) for each in pieces]
+    high = [each.corners + each.radius * (1.0 + 1.0j) for each in pieces]
+    a, b = np.concatenate(low), np.concatenate(high)
+    return complex(a.real.min(), a.imag.min()), complex(b.real.max(), b.imag.max())
+
+
+def _corners(shape: Shape) -> list[complex]:
+    low, high = _box(shape)
+    return [low, high, complex(high.real, low.imag), complex(low.real, high.imag)]
+
+
+def _places(shape: Shape, radius: float) -> Complexes:
+    """Places of a grid around which there is room for a hole and its wall."""
+    low, high = _box(shape)
+    step = max((high - low).real, (high - low).imag) / GRID
+    x: Floats = np.arange(low.real + 0.5 * step, high.real, step)
+    y: Floats = np.arange(low.imag + 0.5 * step, high.imag, step)
+    grid = (x[:, None] + 1j * y[None, :]).ravel()
+    ring = (1.0 + WALL) * radius * np.exp(2j * np.pi * np.arange(ROUND) / ROUND)
+    around = grid[:, None] + ring[None, :]
+    inside = contains(shape, around.ravel()).reshape(around.shape).all(axis=1)
+    return np.asarray(grid[inside & contains(shape, grid)])
