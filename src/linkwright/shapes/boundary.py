@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from linkwright.core.arrays import Complexes, Floats
+from linkwright.core.arrays import Complexes
 from linkwright.errors import RequestError, SelfCheckError
 from linkwright.shapes.chains import closed_loops
 from linkwright.shapes.distance import contains
@@ -23,8 +23,6 @@ NEAR, ASIDE, TAIL = 1e-10, 1e-12, 1e-4
 COARSER = (1.0, 30.0, 1e3, 1e4)
 #: Shares of the length of an edge at which its sides are looked at: most of them decide.
 SAMPLES = (0.29, 0.5, 0.77)
-#: Boxes that are compared with all others at once.
-ROWS = 256
 _OUTSIDE = _(
     "the hole of {diameter} mm in diameter at ({x}, {y}) mm breaks through the edge of its shape; make the shape "
     "wider there, or the pin thinner",
@@ -90,7 +88,8 @@ def _union(shape: Shape, size: float) -> list[Loop]:
     """The outline by parting all lines and arcs where they meet."""
     for coarser in COARSER:
         near = coarser * NEAR * size
-        kept = [each for run in _runs(shape, near) for each in _sided(run, shape, coarser * ASIDE * size)]
+        runs = list(_runs(shape, near))
+        kept = _kept(runs, shape, coarser * ASIDE * size) if runs else []
         loops = closed_loops(kept, 4.0 * near, TAIL * size)
         if loops is not None:
             break
@@ -105,6 +104,8 @@ def _runs(shape: Shape, near: float) -> Iterator[list[Segment]]:
     """Parts of the tours between places where they meet others: all of a run is on the outline, or nothing."""
     rows = [row for piece in shape.pieces for row in tours(piece, near)]
     segments = [segment for row in rows for segment in row]
+    if not segments:
+        return
     cuts = _cuts(segments, near)
     first = 0
     for row in rows:
@@ -149,30 +150,37 @@ def _cuts(segments: Sequence[Segment], near: float) -> list[list[tuple[float, co
     return found
 
 
-def _neighbours(segments: Sequence[Segment], near: float) -> Iterator[tuple[int, int]]:
-    """Pairs of segments whose boxes overlap."""
-    boxes = [segment.edge.box for segment in segments]
-    low = np.array([[each[0].real, each[0].imag] for each in boxes]).reshape(-1, 2) - near
-    high = np.array([[each[1].real, each[1].imag] for each in boxes]).reshape(-1, 2) + near
-    for first in range(0, len(boxes), ROWS):
-        rows: Floats = low[first : first + ROWS, None]
-        touch = (rows <= high).all(axis=2) & (low <= high[first : first + ROWS, None]).all(axis=2)
-        for i, j in zip(*np.nonzero(touch), strict=True):
-            if first + i < j:
-                yield int(first + i), int(j)
+def _neighbours(segments: Sequence[Segment], near: float) -> list[tuple[int, int]]:
+    """Pairs of segments whose boxes overlap, in order."""
+    boxes = np.array([segment.edge.box for segment in segments])
+    left, below = boxes[:, 0].real - near, boxes[:, 0].imag - near
+    right, above = boxes[:, 1].real + near, boxes[:, 1].imag + near
+    order = np.argsort(left, kind="stable")
+    # of all that begin further right those overlap in x that begin before a box ends
+    ends = np.searchsorted(left[order], right[order], side="right")
+    counts = ends - np.arange(len(order)) - 1
+    one = np.repeat(np.arange(len(order)), counts)
+    other = one + 1 + np.arange(len(one)) - np.repeat(np.cumsum(counts) - counts, counts)
+    first, second = order[one], order[other]
+    both = (below[first] <= above[second]) & (below[second] <= above[first])
+    pairs = np.sort(np.stack([first[both], second[both]], axis=1), axis=1)
+    return sorted(map(tuple, pairs.tolist()))
 
 
-def _sided(run: list[Segment], shape: Shape, aside: float) -> list[Segment]:
-    """The run with the union to its left; empty where that is on both sides or on none."""
-    longest = max(run, key=lambda each: each.length)
-    offset = min(aside, 0.01 * longest.length)
-    places = np.array([longest.at(share) for share in SAMPLES])
-    left = 1j * np.exp(1j * np.array([longest.edge.heading(share) for share in SAMPLES])) * offset
-    inside = contains(shape, np.concatenate([places + left, places - left])).reshape(2, -1)
-    leftward, rightward = (inside.sum(axis=1) > 0.5 * len(SAMPLES)).tolist()
-    if leftward == rightward:
-        return []
-    return run if leftward else [each.reversed for each in reversed(run)]
+def _kept(runs: Sequence[list[Segment]], shape: Shape, aside: float) -> list[Segment]:
+    """The segments of runs that have the union on one side only, with it to their left."""
+    longest = [max(run, key=lambda each: each.length) for run in runs]
+    offsets = np.minimum(aside, 0.01 * np.array([each.length for each in longest]))
+    places = np.array([[each.at(share) for share in SAMPLES] for each in longest])
+    headings = np.array([[each.edge.heading(share) for share in SAMPLES] for each in longest])
+    left = 1j * np.exp(1j * headings) * offsets[:, None]
+    inside = contains(shape, np.stack([places + left, places - left]).ravel()).reshape(2, len(runs), -1)
+    leftward, rightward = inside.sum(axis=2) > 0.5 * len(SAMPLES)
+    found: list[Segment] = []
+    for run, there, beyond in zip(runs, leftward.tolist(), rightward.tolist(), strict=True):
+        if there != beyond:
+            found += run if there else [each.reversed for each in reversed(run)]
+    return found
 
 
 def _bored(shape: Shape, loops: Sequence[Loop], near: float) -> Iterator[Loop]:
