@@ -104,14 +104,6 @@ class Problem:
         counted = (self.leader[each] for each in plates if each in self.leader)
         return tuple(dict.fromkeys(counted))
 
-    @cached_property
-    def most_layers(self) -> int:
-        """No machine needs more layers: between two that hold plates there is at most one for heads on either."""
-        groups = len({*self.leader.values()} - {self.base, self.cover})
-        headed = any("heads" in each.parts for each in self.apart)
-        fixed = max((layer for layer in self.fixed.values() if layer is not None), default=0)
-        return fixed + (3 if headed else 1) * groups + 3
-
     def among(self, names: Iterable[str]) -> Problem:
         """The same without the demands on bodies that are not among the names."""
         known = {*names}

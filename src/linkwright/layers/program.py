@@ -58,9 +58,8 @@ class Program:
         for each in problem.apart:
             self._add_apart(each.first, each.parts[0], each.second, each.parts[1])
 
-    def solve(self, time_limit: float, *, best: bool) -> Answer:
-        """The layers of all plates; with the shortest pins, then with plates as near as can be to the frame, where
-        the ``best`` are asked for."""
+    def solve(self, time_limit: float) -> Answer:
+        """The layers of all plates with the shortest pins, then with plates as near as can be to the frame."""
         from scipy.optimize import Bounds, LinearConstraint, milp
         from scipy.sparse import csr_array
 
@@ -72,7 +71,7 @@ class Program:
         rows, columns, values = (np.concatenate(each) for each in zip(*self._entries, strict=True))
         matrix = csr_array((values, (rows, columns)), shape=(self._rows, self.count))
         found = milp(
-            self._costs() if best else np.zeros(self.count),
+            self._costs(),
             constraints=LinearConstraint(matrix, np.concatenate(self._low), np.concatenate(self._high)),
             bounds=Bounds(0.0, high),
             integrality=np.arange(self.count) < len(domains),
@@ -201,7 +200,6 @@ class Program:
         constant, ones = np.zeros(self.size + 1), np.ones(self.size)
         above = layers + 1 if not self.problem.cover else layers[:-1] + 1
         if not spans:
-            constant[-1] = 0.0 if self.problem.cover else 1.0
             return Presence(layers[:0], layers[:0], np.zeros(0), constant)
         if len(spans) == 1:
             plate = self._plate(spans[0])

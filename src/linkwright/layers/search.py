@@ -2,53 +2,45 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from time import monotonic
 
+from linkwright.layers.orders import any_layers
 from linkwright.layers.problem import Problem
-from linkwright.layers.program import Answer, Program
+from linkwright.layers.program import Program
 
-#: Seconds after which a search tells what it has found so far.
+#: Seconds after which a search gives what it has found so far.
 TIME_LIMIT = 60.0
 
 
 @dataclass(frozen=True)
 class Search:
-    """What a search came to: ``layer`` of every plate, None without; ``count`` of layers above the base.
+    """What a search came to: the layer of every plate, ``count`` of layers above the base.
 
-    ``fewest``: whether it is proved that no fewer do, or without layers that there are none; ``shortest``: that no
-    layers of that count have shorter pins.
+    ``fewest``: whether it is proved that fewer are not enough; ``shortest``: that with so many no pins are shorter.
     """
 
-    layer: dict[str, int] | None
+    layer: Mapping[str, int]
     count: int
     fewest: bool = True
     shortest: bool = True
 
 
-def arrange(problem: Problem, time_limit: float = TIME_LIMIT) -> Search:
-    """The layers of a problem, the best by proof unless the time is over before."""
-    end = monotonic() + time_limit
-    most, few = problem.most_layers, len(problem.plates)
-    fewest = True
-    for count in (*range(1, min(few, most) + 1), most, *range(few + 1, most)):
-        answer = _solved(problem, count, end, best=count != most)
-        if count == most and answer.layer is None:
-            return Search(None, count, answer.proved)
-        if answer.layer is not None and count != most:
-            return Search(dict(answer.layer), count, fewest, answer.proved)
-        fewest = fewest and (answer.proved or count == most)
-    answer = _solved(problem, most, end, best=True)
-    return Search(None if answer.layer is None else dict(answer.layer), most, fewest, answer.proved)
+def arrange(problem: Problem, time_limit: float = TIME_LIMIT) -> Search | None:
+    """The best layers, by proof unless the time is over before; None where there are none.
 
-
-def has_layers(problem: Problem) -> bool:
-    """Whether there are any layers at all; raises TimeoutError where a minute does not tell."""
-    found = Program(problem, problem.most_layers).solve(TIME_LIMIT, best=False)
-    if not found.proved:
-        raise TimeoutError
-    return found.layer is not None
-
-
-def _solved(problem: Problem, count: int, end: float, *, best: bool) -> Answer:
-    return Program(problem, count).solve(max(end - monotonic(), 0.0), best=best)
+    Raises:
+        Undecided: the time is over before any are found.
+    """
+    until = monotonic() + time_limit
+    some = any_layers(problem, until)
+    if some is None:
+        return None
+    highest, fewest = max(some.values(), default=0), True
+    for count in range(highest + 1):
+        answer = Program(problem, count).solve(max(until - monotonic(), 0.0))
+        if answer.layer is not None:
+            return Search(answer.layer, count, fewest, answer.proved)
+        fewest = fewest and answer.proved
+    return Search(some, highest, fewest=False, shortest=False)
