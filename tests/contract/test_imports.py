@@ -32,7 +32,7 @@ STAGES = (
     ("sizing",),
     ("solids",),
     ("interference",),
-    ("layers",),
+    ("layering",),
     ("designs", "synthesis"),
     ("reports", "plotting", "exporters", "page", "validation", "course", "sheets", "fabrication"),
     ("plausibility",),

@@ -15,7 +15,7 @@ from linkwright.fabrication.holes import Pose
 from linkwright.fabrication.part import Part
 from linkwright.fabrication.plates import Plates
 from linkwright.fabrication.turned import Turned
-from linkwright.layers.arrangement import Layers
+from linkwright.layering.arrangement import Layers
 from linkwright.mechanism.construction import MATERIALS
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _

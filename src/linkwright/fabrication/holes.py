@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from linkwright.fabrication.part import Hole
 from linkwright.kinematics.placement import placements
 from linkwright.kinematics.solve import solve_motion
-from linkwright.layers.arrangement import Layers
+from linkwright.layering.arrangement import Layers
 from linkwright.solids.solid import Solid
 
 #: Places nearer to each other than this share of the machine are one.

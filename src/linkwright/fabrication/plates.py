@@ -10,7 +10,7 @@ from linkwright.fabrication.holes import Pose, holes_of
 from linkwright.fabrication.mounting import mounting_holes
 from linkwright.fabrication.part import Hole, Part, Place
 from linkwright.fabrication.wheel_plates import WheelPlates
-from linkwright.layers.arrangement import Layers
+from linkwright.layering.arrangement import Layers
 from linkwright.mechanism.link_shape import material_of
 from linkwright.shapes.properties import area_moments
 from linkwright.shapes.shape import Shape

@@ -9,7 +9,7 @@ from itertools import pairwise
 
 from linkwright.fabrication.holes import Pose, axis, fixed_plates, hubs_around, pin_radius
 from linkwright.fabrication.part import Part, Place, Sort
-from linkwright.layers.arrangement import Layers
+from linkwright.layering.arrangement import Layers
 from linkwright.shapes.shape import disc
 from linkwright.solids.solid import Solid
 

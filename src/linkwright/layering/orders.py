@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.layers.problem import Part, Problem
+from linkwright.layering.problem import Part, Problem
 
 #: That the second of two ends is at least so many layers above the first.
 Difference = tuple[int, int, int]

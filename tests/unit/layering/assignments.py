@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from itertools import product
 
-from linkwright.layers.problem import Apart, Fixed, Level, Problem
+from linkwright.layering.problem import Apart, Fixed, Level, Problem
 
 Found = tuple[int, int, int]
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.layers.problem import Part, Problem
+from linkwright.layering.problem import Part, Problem
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 from random import Random
 
-from linkwright.layers.problem import Apart, Demand, Fixed, Level, Problem
+from linkwright.layering.problem import Apart, Demand, Fixed, Level, Problem
 
 
 def random_problem(chance: Random) -> Problem:

@@ -3,16 +3,16 @@
 from random import Random
 
 import pytest
-from tests.unit.layers.assignments import best, holds, measure
-from tests.unit.layers.random_problems import random_problem
+from tests.unit.layering.assignments import best, holds, measure
+from tests.unit.layering.random_problems import random_problem
 
-from linkwright.layers.problem import Apart, Fixed, Level, Problem
-from linkwright.layers.search import arrange
+from linkwright.layering.problem import Apart, Fixed, Level, Problem
+from linkwright.layering.search import arrange
 
 MOST = 4
 
 
-@pytest.mark.parametrize("seed", range(30))
+@pytest.mark.parametrize("seed", range(20))
 def test_as_all_assignments_tried(seed: int) -> None:
     problem = random_problem(Random(seed))
     found, expected = arrange(problem), best(problem, MOST)

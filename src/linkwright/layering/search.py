@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from time import monotonic
 
-from linkwright.layers.orders import any_layers
-from linkwright.layers.problem import Problem
-from linkwright.layers.program import Program
+from linkwright.layering.orders import any_layers
+from linkwright.layering.problem import Problem
+from linkwright.layering.program import Program
 
 #: Seconds after which a search gives what it has found so far.
 TIME_LIMIT = 60.0
