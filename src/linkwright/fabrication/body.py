@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 
 from linkwright.core.arrays import Complexes
 from linkwright.shapes.loop import Loop
 
+Place = TypeVar("Place", complex, Complexes)
 #: Largest distance between an arc and the chords that stand for it, m.
 FLATTENING = 1e-5
 
@@ -39,6 +41,10 @@ class Pose:
     at: complex = 0.0
     along: complex = 1.0
     z: float = 0.0
+
+    def of(self, place: Place) -> Place:
+        """A place in the body's axes, or several, in those of the frame, m."""
+        return self.at + self.along * place
 
 
 @dataclass(frozen=True, eq=False)
