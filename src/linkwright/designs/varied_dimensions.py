@@ -396,11 +396,13 @@ def _key(mechanism: Mechanism, point: str) -> str | None:
 
 
 def moves(mechanism: Mechanism, address: str) -> bool:
-    """Whether a change of a dimension may move what is drawn: all but masses, loads, gravity and speeds."""
+    """Whether a change of a dimension may move what is drawn: all but masses, shapes, loads, gravity and speeds."""
     owner, _unused, key = address.partition(".")
     if owner in mechanism.links:
-        return key.partition(".")[0] not in ("mass", "inertia", "mass_centre")
-    return owner not in ("loads", "gravity", "cycle", *mechanism.drivers)
+        return key.partition(".")[0] not in ("mass", "inertia", "mass_centre", "shape")
+    if address.startswith("frame.shape."):
+        return False
+    return owner not in ("loads", "gravity", "cycle", "construction", *mechanism.drivers)
 
 
 def changed_text(document: Document, values: Mapping[str, float]) -> str:

@@ -6,12 +6,13 @@ from collections.abc import Mapping
 
 from linkwright.fields.base import Field, Quantity
 from linkwright.fields.colour import Colour
+from linkwright.fields.mass import Mass
 from linkwright.fields.references import PlaceOrPoint
 from linkwright.fields.shape_of_link import ShapeField
 from linkwright.words import _
 
 BODY_FIELDS: Mapping[str, Field] = {
-    "mass": Quantity("mass", minimum=0, doc=_("mass (default 0)")),
+    "mass": Mass(doc=_("mass (default 0); from shape: it follows from the shape, and so do inertia and mass centre")),
     "inertia": Quantity("inertia", minimum=0, doc=_("moment of inertia about the mass centre (default 0)")),
     "mass_centre": PlaceOrPoint("length", ("x", "y"), doc=_("mass centre: [x, y] or a point (default: midway)")),
     "colour": Colour(doc=_('colour of the link in drawings: a name, or "#rrggbb" (default: that of all lines)')),

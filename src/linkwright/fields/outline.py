@@ -71,12 +71,12 @@ def fault_of(rings: Sequence[Ring]) -> tuple[Message, Message] | None:
             )
         if index and not _inside(ring[0], rings[0]):
             return (
-                _("hole {number} is not within the outline", code="shapes.hole_outside", number=index),
+                _("hole {number} is not within the outline", code="shapes.opening_outside", number=index),
                 _("move it, or make the outline larger"),
             )
         if any(_inside(ring[0], other) for other in rings[1:index]):
             return (
-                _("hole {number} is within another hole", code="shapes.hole_in_hole", number=index),
+                _("hole {number} is within another hole", code="shapes.opening_in_opening", number=index),
                 _("remove it: there is nothing to cut"),
             )
     place = _crossing(rings)

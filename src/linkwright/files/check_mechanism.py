@@ -235,7 +235,7 @@ def _missing_inertias(reader: Reader, root: MappingNode, mechanism: Mechanism) -
     for name, link in mechanism.links.items() if mechanism.drivers else ():
         if len(link.points) == 1 and reader.error_count:  # perhaps a block whose guide is not named
             continue
-        if name in sliding or not link.mass or below(root, "links", name, "inertia"):
+        if name in sliding or not link.mass or link.mass_from_shape or below(root, "links", name, "inertia"):
             continue
         message = _(
             'the link "{link}" turns and has a mass of {mass} kg, but no moment of inertia: it counts as zero',

@@ -1,10 +1,16 @@
-"""What the shapes of links have to do with the rest of a model file."""
+"""Masses of links that follow from their shapes, and points through which shapes go: what a file must say of both."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+from linkwright.errors import LinkwrightError
+from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence, below
 from linkwright.fields.shape_of_link import LinkShape
 from linkwright.files.reader import Reader
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.words import _
 
 
 def shape_points_known(reader: Reader, node: Node, link: str, shape: LinkShape | None) -> bool:
@@ -16,3 +22,64 @@ def shape_points_known(reader: Reader, node: Node, link: str, shape: LinkShape |
         for each in (through.items if isinstance(through, Sequence) and shape is not None else ())
         if isinstance(each, Scalar)
     )
+
+
+def weighed(reader: Reader, root: MappingNode, mechanism: Mechanism) -> Mechanism:
+    """The mechanism with mass, inertia and mass centre of the links whose file gives ``mass: from shape``."""
+    if not any(link.mass_from_shape for link in mechanism.links.values()):
+        return mechanism
+    from linkwright.mechanism.mass_from_shape import mass_of
+
+    links = dict(mechanism.links)
+    for name, link in mechanism.links.items():
+        if not link.mass_from_shape or not _can_be_weighed(reader, root, mechanism, name):
+            continue
+        try:
+            mass, inertia, x, y = mass_of(mechanism, name, mechanism.dimensions().__getitem__)
+        except LinkwrightError as error:
+            key, node = (
+                f"links.{name}.shape",
+                below(root, "links", name, "shape") or below(root, "links", name, "mass"),
+            )
+            reader.error(node, key, error.sentence, "", "outline")
+            continue
+        links[name] = replace(link, mass=float(mass), inertia=float(inertia), mass_centre=(float(x), float(y)))
+    return replace(mechanism, links=links)
+
+
+def _can_be_weighed(reader: Reader, root: MappingNode, mechanism: Mechanism, name: str) -> bool:
+    """Whether the file gives all that a mass follows from, and nothing that contradicts it."""
+    from linkwright.mechanism.mass_from_shape import sizes
+
+    key, node = f"links.{name}", below(root, "links", name, "mass")
+    for other in ("inertia", "mass_centre"):
+        at = below(root, "links", name, other)
+        if at is not None:
+            problem = _(
+                "{key_} is given besides mass: from shape, which gives it too", code="shapes.given_twice", key_=other
+            )
+            reader.error(at, f"{key}.{other}", problem, _("keep one of them"), "choice")
+            return False
+    shape = mechanism.links[name].shape
+    if shape is not None and shape.kind == "none":
+        problem = _("a link of shape: none has no mass from its shape", code="shapes.none_weighs")
+        reader.error(node, f"{key}.mass", problem, _("give its mass as a number, or another shape"), "choice")
+        return False
+    missing = sizes(mechanism, name).missing
+    if missing and (construction := below(root, "construction")) is not None and mechanism.construction is None:
+        reader.unread += construction is not None  # what is wrong with it is reported already
+        return False
+    if missing:
+        keys = tuple(own.rpartition(".")[2] for own, _usual in missing)
+        lines = tuple(usual for _own, usual in missing)
+        problem = _(
+            "the mass of {link} follows from its shape, but there is no {keys}",
+            code="shapes.no_size",
+            link=name,
+            keys=tuple(dict.fromkeys(keys)),
+        )
+        remedy = _(
+            "add {lines}, or give {own}", lines=tuple(dict.fromkeys(lines)), own=tuple(own for own, _usual in missing)
+        )
+        reader.error(node, f"{key}.mass", problem, remedy, "missing-key")
+    return not missing

@@ -22,6 +22,7 @@ from linkwright.fields.reading import Place
 from linkwright.fields.references import resolve_output
 from linkwright.fields.sheet import FIELD as SHEET_SECTION
 from linkwright.files.check_mechanism import check_mechanism
+from linkwright.files.mass_from_shape import weighed
 from linkwright.files.misplaced import in_place
 from linkwright.files.node_reader import MODES
 from linkwright.files.read_construction import read_construction
@@ -154,6 +155,7 @@ def _sections(reader: Reader, root: MappingNode, source: str) -> Mechanism:
         expressions=reader.expressions,
         **{name: header.get(name) or {} for name in FREE_SECTIONS},
     )
+    mechanism = weighed(reader, root, mechanism)
     unread = reader.error_count
     check_mechanism(reader, root, mechanism)
     if unread:

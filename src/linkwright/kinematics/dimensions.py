@@ -18,6 +18,7 @@ from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Scalar, Trace, absolute, cos, select, sin, sqrt
 from linkwright.kinematics.equation import ChainPair
 from linkwright.mechanism.link import Link, centre, local_points
+from linkwright.mechanism.mass_from_shape import ENDS, following, outline_sources, sources, traced_mass
 from linkwright.mechanism.mechanism import Mechanism
 
 if TYPE_CHECKING:
@@ -38,12 +39,19 @@ class Dimensions:
         self.nominal = mechanism.dimensions()
         self._points: dict[str, dict[str, Vec]] = {}
         self._varying = _varying(mechanism, free)
+        links = weighed_anew(mechanism, self._varying, free)
+        self._weighed = {f"{name}{end}": name for name in links for end in ENDS}
+        self._varying |= self._weighed.keys()
+        self._masses: dict[str, dict[str, Scalar]] = {}
         self._parameters: dict[str, Scalar] = {}
         self.symbols = Symbols(trace)
         self.pairs: dict[TreeJoint, ChainPair] = {}
 
     def __call__(self, address: str) -> Scalar:
         """The dimension at an address (``crank.length``)."""
+        link = self._weighed.get(address)
+        if link is not None:
+            return self._mass(link)[address]
         expression = self.mechanism.expressions.get(address)
         if expression is not None and address not in self.free and self._follows(address):
             return self._from_expression(address)
@@ -75,6 +83,14 @@ class Dimensions:
 
     def _parameter(self, name: str) -> Scalar:
         return self._parameters[name] if name in self._parameters else self(name)
+
+    def _mass(self, link: str) -> dict[str, Scalar]:
+        """Mass, inertia and mass centre of a link whose shape or sizes vary, by their addresses."""
+        if link not in self._masses:
+            moved = not self._varying.isdisjoint(outline_sources(self.mechanism, link))
+            found = traced_mass(self.mechanism, link, self, moved=moved)
+            self._masses[link] = {f"{link}{end}": value for end, value in zip(ENDS, found, strict=True)}
+        return self._masses[link]
 
     def link(self, name: str) -> Link:
         """A link by name, the frame included."""
@@ -117,6 +133,16 @@ def _varying(mechanism: Mechanism, free: Set[str]) -> set[str]:
         if address not in free and not found.isdisjoint(expression.names):
             found.add(address)
     return found
+
+
+def weighed_anew(mechanism: Mechanism, varying: Set[str], free: Set[str]) -> list[str]:
+    """The links whose mass follows from a shape or from sizes that vary, and is not free itself."""
+    names = dict.fromkeys(following(mechanism).values())
+    return [
+        name
+        for name in names
+        if free.isdisjoint(f"{name}{end}" for end in ENDS) and not varying.isdisjoint(sources(mechanism, name))
+    ]
 
 
 _PI = 3.141592653589793

@@ -19,6 +19,7 @@ from linkwright.formula.scalar_backend import ScalarProgram
 from linkwright.kinematics.structure_with_rank import analysed
 from linkwright.kinematics.trace import MotionOutputs, MotionTrace, trace_motion
 from linkwright.mechanism.link import Link
+from linkwright.mechanism.mass_from_shape import bent_plates, fixed_plate
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.topology import Structure
 
@@ -146,6 +147,7 @@ def shape(mechanism: Mechanism, free: frozenset[str] = frozenset()) -> Hashable:
         free,
         tuple(map(_QUARTERS.get, numbers.values())) if not free else _known(numbers, free),
         tuple([link.coinciding for link in (mechanism.frame, *mechanism.links.values())]),
+        tuple([fixed_plate(mechanism, name) for name in bent_plates(mechanism)]) if free else (),
         tuple([_ahead(mechanism, mechanism.joints[name]) for name in guides]),
         mechanism.size,
     )
@@ -200,7 +202,8 @@ def _known(numbers: Mapping[str, float], free: frozenset[str]) -> tuple[int | No
 
 def _link(link: Link) -> Hashable:
     centre = link.mass_centre if isinstance(link.mass_centre, str) else link.mass_centre is None
-    return link.name, link.geometry, tuple(link.points), centre
+    rings = link.shape.rings if link.mass_from_shape and link.shape is not None else ()
+    return link.name, link.geometry, tuple(link.points), centre, link.mass_from_shape, _plain(link.shape), rings
 
 
 def _ahead(mechanism: Mechanism, joint: Any) -> tuple[bool, int]:

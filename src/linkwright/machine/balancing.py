@@ -179,7 +179,8 @@ def with_counterweight(link: Link, weight: Counterweight) -> Link:
     old, new = complex(*link.centre), complex(*weight.place)
     centre = (link.mass * old + weight.mass * new) / mass
     inertia = link.inertia + link.mass * abs(old - centre) ** 2 + weight.mass * abs(new - centre) ** 2
-    return replace(link, mass=mass, inertia=inertia, mass_centre=(centre.real, centre.imag))
+    place = centre.real, centre.imag
+    return replace(link, mass=mass, inertia=inertia, mass_centre=place, mass_from_shape=False)
 
 
 def _radius(radius: Radius, link: str) -> float:

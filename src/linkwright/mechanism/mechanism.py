@@ -200,20 +200,24 @@ class Mechanism(Frozen):
         unchanged = {address: each for address, each in self.expressions.items() if address not in changes}
         for address, expression in unchanged.items():
             new[address] = self._checked(address, expression.evaluate(new))
-        moved = {self._owners.get(each) for each in (*changes, *unchanged) if new[each] != known[each]}
+        weighed = self._weigh(changes, new)
+        moved = {
+            self._owners.get(each) for each in (*changes, *unchanged, *self._following) if new[each] != known[each]
+        }
         value, parameters = new.__getitem__, {name: new[name] for name in self.parameters}
         renewed: dict[str, set[str]] = {sort: set() for sort in _SORTS}
         for sort, name in filter(None, moved):
             renewed[sort].add(name)
         links = {"frame": self.frame, **self.links}
         links |= {name: links[name].with_dimensions(value) for name in renewed["link"]}
+        links |= {name: replace(links[name], mass_from_shape=False) for name in weighed}
         joints = {name: self.joints[name].with_dimensions(value) for name in renewed["joint"]}
         for name, joint in self.joints.items():
             if name in joints or joint.joined[0] in renewed["link"]:
                 new_joint = joints.get(name, joint)
                 joints[name] = new_joint.aligned(links[joint.joined[0]].points)
         drivers = self.drivers if parameters != self.parameters else renewed["driver"]
-        same = len(unchanged) == len(self.expressions)
+        same = len(unchanged) == len(self.expressions) and not weighed
         found = {"_dimensions": new, "_owners": self._owners, "higher": self.higher}
         led = self.path is not None or (self.cycle is not None and self.cycle.rock is not None)
         changed = self._changed(
@@ -242,6 +246,30 @@ class Mechanism(Frozen):
         if led:
             changed._lead()
         return changed
+
+    def _weigh(self, changes: Mapping[str, float], new: dict[str, float]) -> set[str]:
+        """Puts what follows from the shapes of links into ``new`` dimensions, where these change it; the links whose
+        mass, inertia or mass centre is itself changed, which then follows no more."""
+        if not self._following:
+            return set()
+        from linkwright.mechanism.mass_from_shape import ENDS, mass_of, sources
+
+        given = {self._following[each] for each in changes if each in self._following}
+        for name in dict.fromkeys(self._following.values()):
+            known = self._dimensions
+            if name not in given and any(new[each] != known[each] for each in sources(self, name)):
+                found = mass_of(self, name, new.__getitem__)
+                new.update({f"{name}{end}": float(each) for end, each in zip(ENDS, found, strict=True)})
+        return given
+
+    @cached_property
+    def _following(self) -> Mapping[str, str]:
+        """Addresses of what follows from the shapes of links, with the names of the links."""
+        if not any(link.mass_from_shape for link in self.links.values()):
+            return {}
+        from linkwright.mechanism.mass_from_shape import following
+
+        return following(self)
 
     def _changed(self, found: Mapping[str, Any], **changes: Any) -> Mechanism:
         """The same mechanism with other fields, the others are frozen already, and what is ``found`` of it."""
