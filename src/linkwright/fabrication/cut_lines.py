@@ -6,12 +6,13 @@ import cmath
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
+from linkwright.core.quantity import shown
+from linkwright.errors import RequestError
 from linkwright.fabrication.engraving import Engraving, engravings
-from linkwright.fabrication.kerf import for_kerf
+from linkwright.fabrication.outlines import outline
 from linkwright.fabrication.part import Part
-from linkwright.shapes.boundary import boundary
 from linkwright.shapes.loop import Loop
-from linkwright.shapes.shape import Shape
+from linkwright.words import _
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,8 +52,17 @@ def box_of(loops: Iterable[Loop]) -> tuple[complex, complex]:
 
 def cut_lines(part: Part, kerf: float = 0.0) -> CutLines:
     """The lines of a plate in its own axes, outside its edges by half the width of the cut (m)."""
-    cut = for_kerf(part, kerf)
-    loops = boundary(Shape(cut.shape.pieces))
+    loops = outline(part.shape, 0.5 * kerf) if kerf else part.edge
     outer = tuple(loop for loop in loops if loop.area > 0.0)
     inner = tuple(loop for loop in loops if loop.area <= 0.0)
-    return CutLines(outer, inner, cut.shape.holes, engravings(part))
+    holes = tuple((centre, radius - 0.5 * kerf) for centre, radius in part.shape.holes)
+    if any(radius <= 0.0 for _centre, radius in holes):
+        raise RequestError(
+            _(
+                "the kerf of {kerf} is as wide as a hole in {part}; give a smaller one, or make the pins thicker",
+                code="cut.kerf",
+                kerf=shown(kerf, "length"),
+                part=part.name,
+            )
+        )
+    return CutLines(outer, inner, holes, engravings(part))

@@ -16,6 +16,7 @@ from linkwright.fabrication.part import Part
 from linkwright.fabrication.plates import Plates
 from linkwright.fabrication.turned import Turned
 from linkwright.layering.arrangement import Layers
+from linkwright.layering.layers_of import layers
 from linkwright.mechanism.construction import MATERIALS
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.words import _
@@ -75,7 +76,7 @@ def cut_parts(mechanism: Mechanism) -> CutParts:
     Raises LinkwrightError where it has no such layers.
     """
     require(mechanism, Mechanism)
-    raise NotImplementedError
+    return parts_in(layers(mechanism))
 
 
 def parts_in(found: Layers) -> CutParts:

@@ -73,6 +73,8 @@ def engravings(part: Part) -> tuple[Engraving, ...]:
     own where there is room for it."""
     plate = _Plate(part, [])
     for hole in part.holes:
+        if not hole.pin:
+            continue
         size = 2.0 * hole.radius
         places = (
             Engraving(_short(hole.pin), hole.centre + way * (hole.radius + reach), height, turn)

@@ -9,12 +9,27 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from linkwright.fabrication.part import Hole
+import numpy as np
+
+from linkwright.core.quantity import shown
+from linkwright.errors import RequestError
+from linkwright.fabrication.part import Hole, Part
 from linkwright.kinematics.placement import placements
 from linkwright.kinematics.solve import solve_motion
 from linkwright.layering.arrangement import Layers
+from linkwright.shapes.distance import contains
 from linkwright.solids.solid import Solid
+from linkwright.words import _
 
+_OUTSIDE = _(
+    "the hole for {pin} in {part}, {diameter} in diameter, breaks through the edge; make the link wider there, or "
+    "the pin thinner",
+    code="cut.hole_outside",
+)
+_OVERLAP = _(
+    "the holes for {pin}, {diameter} in diameter, and {other} in {part} overlap; make the pins thinner",
+    code="cut.holes_overlap",
+)
 #: Places nearer to each other than this share of the machine are one.
 SAME = 1e-7
 
@@ -70,6 +85,19 @@ def fixed_plates(layers: Layers, pin: Solid) -> frozenset[str]:
         return frozenset(pin.plates)
     lowest = min(pin.plates, key=lambda plate: layers.height[plate])
     return frozenset(plate for plate in pin.plates if solids[plate].carrier == solids[lowest].carrier)
+
+
+def check_holes(part: Part) -> None:
+    """Raises RequestError for a hole that breaks through the edge of its plate or into another hole."""
+    edges = [edge for loop in part.edge for edge in loop.edges]
+    for k, hole in enumerate(part.holes):
+        about = {"pin": hole.pin, "part": part.name, "diameter": shown(2.0 * hole.radius, "length")}
+        inside = contains(part.shape, np.array([hole.centre]))[0]
+        if not inside or min(edge.distance(hole.centre) for edge in edges) < hole.radius * (1.0 - SAME):
+            raise RequestError(_OUTSIDE.format(**about))
+        for other in part.holes[:k]:
+            if abs(other.centre - hole.centre) < (other.radius + hole.radius) * (1.0 - SAME):
+                raise RequestError(_OVERLAP.format(**about, other=other.pin))
 
 
 @dataclass(frozen=True)

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.fabrication.part import Hole
+from linkwright.pictures.picture import round_up
 from linkwright.shapes.distance import contains
 from linkwright.shapes.shape import Shape
 
 #: Radius of a mounting hole as a share of that of the smallest pin, and the wall around it as a share of its radius.
 RADIUS, WALL = 0.75, 1.0
-#: Places along the longer side of the plate that are tried, and around each for the wall.
-GRID, ROUND = 60, 16
+#: Steps of the grid of places along the longer side of the plate, and around each the rings, as shares of the wall's
+#: radius, on which there must be material.
+GRID, ROUND, RINGS = 60, 16, (0.3, 0.55, 0.8, 1.0)
 
 
 def mounting_holes(shape: Shape, holes: Sequence[Hole], heads: float) -> tuple[Hole, ...]:
@@ -50,13 +53,13 @@ def _corners(shape: Shape) -> list[complex]:
 
 
 def _places(shape: Shape, radius: float) -> Complexes:
-    """Places of a grid around which there is room for a hole and its wall."""
+    """Places on round coordinates around which there is room for a hole and its wall."""
     low, high = _box(shape)
-    step = max((high - low).real, (high - low).imag) / GRID
-    x: Floats = np.arange(low.real + 0.5 * step, high.real, step)
-    y: Floats = np.arange(low.imag + 0.5 * step, high.imag, step)
+    step = round_up(max((high - low).real, (high - low).imag) / GRID)
+    x: Floats = step * np.arange(math.ceil(low.real / step), high.real / step)
+    y: Floats = step * np.arange(math.ceil(low.imag / step), high.imag / step)
     grid = (x[:, None] + 1j * y[None, :]).ravel()
-    ring = (1.0 + WALL) * radius * np.exp(2j * np.pi * np.arange(ROUND) / ROUND)
-    around = grid[:, None] + ring[None, :]
-    inside = contains(shape, around.ravel()).reshape(around.shape).all(axis=1)
-    return np.asarray(grid[inside & contains(shape, grid)])
+    ring = np.exp(2j * np.pi * np.arange(ROUND) / ROUND)
+    disc = np.concatenate([[0.0], *(share * (1.0 + WALL) * radius * ring for share in RINGS)])
+    around = grid[:, None] + disc[None, :]
+    return np.asarray(grid[contains(shape, around.ravel()).reshape(around.shape).all(axis=1)])

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
 
-from linkwright.shapes.boundary import boundary
-from linkwright.shapes.loop import Loop
+from linkwright.fabrication.outlines import outline
+from linkwright.shapes.loop import Loop, circle
 from linkwright.shapes.shape import Shape, disc
 
 Sort = Literal["plate", "pin", "spacer", "washer"]
@@ -75,9 +75,15 @@ class Part:
         return len(self.places)
 
     @cached_property
+    def edge(self) -> tuple[Loop, ...]:
+        """The outline without the bored holes."""
+        return outline(self.shape)
+
+    @cached_property
     def loops(self) -> tuple[Loop, ...]:
         """The outline: loops around material counter-clockwise, then those around openings and holes clockwise."""
-        return boundary(self.shape)
+        bored = (circle(centre, radius, clockwise=True) for centre, radius in self.shape.holes)
+        return (*self.edge, *bored)
 
     def prisms(self) -> Iterator[Prism]:
         """What it consists of from below: a pin with heads of up to three, else of one."""

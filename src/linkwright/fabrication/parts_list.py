@@ -27,6 +27,9 @@ CALLED: Mapping[str, Message] = {
     "cam": pgettext("part", "cam {name}"),
     "roller": pgettext("part", "roller {name}"),
     "rod": pgettext("part", "rod {name}"),
+    "hub": pgettext("part", "hub {name}"),
+    "face": pgettext("part", "face {name}"),
+    "edge": pgettext("part", "edge {name}"),
     "spacer": pgettext("part", "spacer {name}"),
     "washer": pgettext("part", "washer {name}"),
 }

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
-from linkwright.fabrication.holes import Pose, holes_of
+from linkwright.fabrication.holes import Pose, check_holes, holes_of
 from linkwright.fabrication.mounting import mounting_holes
 from linkwright.fabrication.part import Hole, Part, Place
 from linkwright.fabrication.wheel_plates import WheelPlates
 from linkwright.layering.arrangement import Layers
 from linkwright.mechanism.link_shape import material_of
-from linkwright.shapes.properties import area_moments
 from linkwright.shapes.shape import Shape
 from linkwright.solids.solid import Solid
 
@@ -52,10 +51,11 @@ class Plates:
         low, high = height
         bored = Shape(shape.pieces, tuple((each.centre, each.radius) for each in holes))
         material = material_of(self.layers.mechanism, solid.carrier)
-        mass = area_moments(bored).area * (high - low) * material.density
         layer = min(self.layers.layer[plate] for plate in solid.plates)
         place = Place(solid.carrier, 0j, low, solid.name)
-        return Part(solid.name, "plate", bored, high - low, material.name, mass, layer, (place,), holes)
+        part = Part(solid.name, "plate", bored, high - low, material.name, 0.0, layer, (place,), holes)
+        check_holes(part)
+        return replace(part, mass=sum(loop.area for loop in part.loops) * part.length * material.density)
 
     def _holes(self, solid: Solid, shape: Shape) -> tuple[Hole, ...]:
         """The holes of a plate; in the base plate those by which it is mounted as well."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -123,7 +123,22 @@ def _meshes(mechanism: Mechanism) -> Iterator[Mesh]:
             line += math.pi
         teeth = (wheels[0].teeth, wheels[1].teeth)
         pair = gear_pair(teeth, joint.module, pressure_angle=joint.pressure_angle, internal=internal)
-        yield Mesh(wheels[0], wheels[1], pair, line, angles)
+        yield Mesh(wheels[0], wheels[1], _cleared(pair), line, angles)
+
+
+def _cleared(pair: GearPair) -> GearPair:
+    """The pair, the teeth of a ring shortened where they would reach below the involutes of the pinion.
+
+    Along the line of action a ring's tip circle is L = a sin α_w + l from the foot on its base circle, l being the
+    length of the tangent to the end of the pinion's involute, and d_a² = d_b² + (2 L)² (DIN 3960).
+    """
+    if not pair.wheel.internal:
+        return pair
+    pinion, wheel = pair.pinion, pair.wheel
+    start = 0.5 * math.sqrt(max(pinion.form_diameter**2 - pinion.base_diameter**2, 0.0))
+    across = pair.centre_distance * math.sin(pair.working_pressure_angle)
+    tip = math.hypot(wheel.base_diameter, 2.0 * (across + start))
+    return replace(pair, wheel=replace(wheel, tip=tip)) if tip > wheel.tip_diameter else pair
 
 
 def _pinions(mechanism: Mechanism, known: Sequence[Toothed]) -> Iterator[Toothed]:

@@ -17,6 +17,8 @@ from linkwright.solids.solid import Solid
 
 #: Sizes of a disc and its gear are equal to this share.
 SAME = 1e-6
+#: From a plate's edge to the tips of its teeth at most, in modules: teeth of rings may be shortened.
+NEAR_TIP = 0.7
 #: Corners of the rim of a ring.
 RIM = 720
 
@@ -49,7 +51,7 @@ class WheelPlates:
         away = np.abs(piece.corners - centre)
         reach = away.min() - piece.radius if gear.gear.internal else away.max() + piece.radius
         round_about = math.isclose(away.min(), away.max(), rel_tol=1e-3, abs_tol=SAME * tip)
-        return bool(round_about and math.isclose(abs(reach), tip, rel_tol=1e-3))
+        return bool(round_about and abs(reach - tip) < NEAR_TIP * gear.gear.module)
 
     def _wheel(self, plate: Solid, gear: Toothed) -> Shape:
         place = self.carriers.places[gear.link]

@@ -12,6 +12,8 @@ from linkwright.solids.mounting import fasten
 
 #: From the pitch line to the back of a rack, and beyond the last place of a pinion, in modules.
 BACK, TEETH_BEYOND = 3.75, 2.0
+#: Height of the teeth in modules (ISO 53 A).
+HIGH = 2.25
 #: The same without teeth, and radius of a post: shares of the link's width.
 BARE, BEYOND, POST = 0.5, 0.5, 0.15
 
@@ -45,8 +47,8 @@ class Rack:
 
     @property
     def posts(self) -> tuple[complex, complex]:
-        """Places at its ends at which posts hold it."""
-        inset = 0.5 * self.depth
+        """Places at its ends at which posts hold it, below the roots of its teeth."""
+        inset = 0.5 * (self.depth - HIGH * self.module)
         middle = self.start + inset * self.across
         return middle + inset * self.way, middle + (self.length - inset) * self.way
 
