@@ -70,6 +70,8 @@ NAMES = {
     "limit_positions": "输出的极限位置",
     "Balancing": "配重及加配重前后的比较",
     "balance": "四杆与曲柄滑块机构的配重",
+    "LinkSizes": "构件与销轴的尺寸及其依据",
+    "size_links": "按最大力确定构件宽度、销轴直径与板厚",
     "Displacement": "静止机器在一点受力后的位移",
     "Equilibria": "机器的全部平衡位置",
     "Equilibrium": "一个平衡位置：稳定性、固有频率、刚度",

@@ -127,6 +127,8 @@ from .reports.report import Report as Report
 from .reports.report import report as report
 from .sheets.sheet import Sheet as Sheet
 from .sheets.sheet import sheet as sheet
+from .sizing.link_sizes import LinkSizes as LinkSizes
+from .sizing.size_links import size_links as size_links
 from .synthesis.free_curve.generate import free_curve as free_curve
 from .synthesis.function_generation.generate import function_generation as function_generation
 from .synthesis.motion_generation.generate import motion_generation as motion_generation

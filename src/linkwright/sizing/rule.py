@@ -16,13 +16,13 @@ WIDTH, PIN, THICKNESS = 1 / 12, 1 / 4, 1 / 4
 
 def usual_length(mechanism: Mechanism) -> float:
     """The median of the lengths of the links, m; where none has one, of what else says how large the machine is."""
-    lengths = [each for link in mechanism.links.values() if (each := length(link)) > 0.0]
+    lengths = [each for link in mechanism.links.values() if (each := extent(link)) > 0.0]
     if lengths:
         return median(lengths)
-    return length(mechanism.frame) or 0.5 * mechanism.size
+    return extent(mechanism.frame) or 0.5 * mechanism.size
 
 
-def length(link: Link) -> float:
+def extent(link: Link) -> float:
     """The largest distance of two points of a link, m; 0 of one point."""
     return max((dist(a, b) for a, b in combinations(link.points.values(), 2)), default=0.0)
 

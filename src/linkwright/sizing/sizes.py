@@ -1,17 +1,20 @@
-"""The sizes of links and pins of a machine: what its file gives, else by rule."""
+"""The sizes of links and pins of a machine: what its file gives, else from the largest forces, else by rule."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from linkwright.core.data import Frozen
 from linkwright.core.quantity import shown
+from linkwright.errors import LinkwrightError
 from linkwright.formula.recently_made import Recent
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.sizing.given import GivenSizes, given_sizes
+from linkwright.sizing.link_sizes import LinkSizes
 from linkwright.sizing.preferred import decade
 from linkwright.sizing.rule import PIN, usual_pin_radius, usual_thickness, usual_width
+from linkwright.sizing.size_links import size_links
 from linkwright.words import Message, _
 
 
@@ -30,7 +33,10 @@ class Sizes(Frozen):
 
 
 def sizes_of(mechanism: Mechanism) -> Sizes:
-    """The sizes of a machine: what its file gives, else by rule. The only place that decides it."""
+    """The sizes of a machine: what its file gives, else from the largest forces, else by rule.
+
+    The only place that decides it. Raises nothing: where forces cannot be solved, a note says why.
+    """
     return _recent.get(mechanism, None, lambda: _sizes(mechanism))
 
 
@@ -38,39 +44,67 @@ _recent: Recent[Mechanism, Sizes] = Recent(64)
 
 
 def _sizes(mechanism: Mechanism) -> Sizes:
-    given = given_sizes(mechanism)
-    usual = usual_width(mechanism)
-    links = ("frame", *mechanism.links)
-    pins = mechanism.pins
-    width = {name: max(usual, _eye(mechanism, given, name)) for name in links} | dict(given.width)
-    radius = {name: usual_pin_radius(min(width[link] for link in pin.joined)) for name, pin in pins.items()} | dict(
-        given.pin_radius
-    )
-    thickness = dict.fromkeys(links, usual_thickness(usual)) | dict(given.thickness)
-    missing = len(given.width) < len(links) or len(given.pin_radius) < len(pins) or len(given.thickness) < len(links)
+    given, count = given_sizes(mechanism), len(mechanism.links) + 1
+    ruled = _by_rule(mechanism, given)
+    if len(given.width) == len(given.thickness) == count and len(given.pin_radius) == len(mechanism.pins):
+        return ruled
+    width = shown(usual_width(mechanism), "length")
+    if not mechanism.has_loads:
+        note = _(
+            "Sizes that the file does not give are round shares of the machine: width {width}, a twelfth of the "
+            "usual length of links.",
+            width=width,
+        )
+        return _noted(ruled, note)
+    try:
+        sized = size_links(mechanism)
+    except LinkwrightError as error:
+        note = _(
+            "Sizes that the file does not give are round shares of the machine, width {width}, as its forces give "
+            "none ({why}).",
+            width=width,
+            why=error.sentence,
+        )
+        return _noted(ruled, note)
+    if not sized.fit:
+        note = _(
+            "Sizes that the file does not give are round shares of the machine, width {width}: those from its forces "
+            "do not leave room for each other ({why}).",
+            width=width,
+            why=next(each for each in sized.notes if each.code == "sizing.no_room"),
+        )
+        return _noted(ruled, note)
+    return _by_forces(ruled, sized)
+
+
+def _noted(sizes: Sizes, note: Message) -> Sizes:
+    return Sizes(sizes.width, sizes.pin_radius, sizes.thickness, (note,))
+
+
+def _by_forces(ruled: Sizes, sized: LinkSizes) -> Sizes:
     note = _(
-        "Sizes that the file does not give are round shares of the machine: width {width}, a twelfth of the "
-        "usual length of links.",
-        width=shown(usual, "length"),
+        "Sizes that the file does not give are from the largest forces over the cycle, with a safety factor of "
+        "{safety:g} (linkwright size shows how).",
+        safety=sized.allowed["frame"].safety,
     )
-    return Sizes(width, radius, thickness, (note,) if missing else ())
+    return Sizes(
+        {**ruled.width, **{name: each.width for name, each in sized.links.items()}},
+        {name: 0.5 * each.diameter for name, each in sized.pins.items()},
+        sized.thickness,
+        (note, *sized.notes),
+    )
 
 
-def given_sizes(mechanism: Mechanism) -> Sizes:
-    """The sizes that the file gives, of some links and pins only."""
-    construction: Any = getattr(mechanism, "construction", None)
-    links = {"frame": mechanism.frame, **mechanism.links}
-    shapes: dict[str, Any] = {name: getattr(link, "shape", None) for name, link in links.items()}
-
-    def given(key: str, owners: Mapping[str, Any]) -> dict[str, float]:
-        usual: float | None = getattr(construction, key, None)
-        found = {name: getattr(owner, key, None) or usual for name, owner in owners.items()}
-        return {name: size for name, size in found.items() if size}
-
-    return Sizes(given("width", shapes), given("pin_radius", mechanism.pins), given("thickness", shapes))
+def _by_rule(mechanism: Mechanism, given: GivenSizes) -> Sizes:
+    """Sizes by rule where the file gives none; no thinner than the pins that it gives need."""
+    usual, links = usual_width(mechanism), ("frame", *mechanism.links)
+    width = {name: max(usual, _eye(mechanism, given, name)) for name in links} | dict(given.width)
+    radius = {name: usual_pin_radius(min(width[link] for link in pin.joined)) for name, pin in mechanism.pins.items()}
+    thickness = dict.fromkeys(links, usual_thickness(usual)) | dict(given.thickness)
+    return Sizes(width, radius | dict(given.pin_radius), thickness)
 
 
-def _eye(mechanism: Mechanism, given: Sizes, link: str) -> float:
+def _eye(mechanism: Mechanism, given: GivenSizes, link: str) -> float:
     """The width of a link around the largest of its pins whose radius is given, m; 0 without."""
     radii = (given.pin_radius.get(name, 0.0) for name, pin in mechanism.pins.items() if link in pin.joined)
     largest = max(radii, default=0.0)

@@ -144,6 +144,7 @@ AREAS: Mapping[str, Message] = {
     "report": pgettext("finding code", "reports"),
     "running": pgettext("finding code", "steady running: motor and flywheel"),
     "shapes": pgettext("finding code", "shapes of links"),
+    "sizing": pgettext("finding code", "sizes of links and pins"),
     "sheet": pgettext("finding code", "drawing sheets"),
     "solve": pgettext("finding code", "the command solve"),
     "studio": pgettext("finding code", "the studio"),

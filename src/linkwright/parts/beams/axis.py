@@ -87,12 +87,13 @@ class LinkAxis:
             couple = np.where(within, 0.0, couple)
         return s, couple
 
-    def stations(self, points: Sequence[float]) -> tuple[Floats, Indices]:
-        """Places along the axis, every corner and named point twice (left and right), and their pieces."""
+    def stations(self, points: Sequence[float], count: int = STATIONS) -> tuple[Floats, Indices]:
+        """Places along the axis, so many between two corners, every corner and named point twice (left and right),
+        and their pieces."""
         found, pieces = [], []
         for piece, (begin, end) in enumerate(zip(self.places[:-1], self.places[1:], strict=True)):
             own = [p for p in points if begin <= p <= end]
-            row = np.sort(np.concatenate([np.linspace(begin, end, STATIONS), own, own]))
+            row = np.sort(np.concatenate([np.linspace(begin, end, count), own, own]))
             found.append(row)
             pieces.append(np.full(len(row), piece))
         return np.concatenate(found), np.concatenate(pieces)

@@ -12,29 +12,26 @@ import numpy as np
 
 from linkwright.analysis import Analysis
 from linkwright.core.arguments import STEPS
-from linkwright.core.arrays import Floats, Indices
-from linkwright.core.plane import cross
+from linkwright.core.arrays import Floats
 from linkwright.core.quantity import shown
 from linkwright.core.table import Block, Row
 from linkwright.equations.steps import Step
-from linkwright.errors import Finding, LinkwrightError, SelfCheckError, fault
+from linkwright.errors import Finding, LinkwrightError, fault
 from linkwright.fields.base import Quantity, Text, file_key
 from linkwright.fields.tables import Integer, Listed
 from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.forces import Forces
 from linkwright.kinetostatics.run import solve_forces
-from linkwright.kinetostatics.self_check import LIMIT
 from linkwright.mechanism.link import Link
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.parts.base import Result
-from linkwright.parts.beams.axis import LinkAxis, LinkForces, PointForce, SpreadMass
+from linkwright.parts.beams.axis import LinkAxis, PointForce, SpreadMass
 from linkwright.parts.beams.components import MATERIAL, Material, Section, require_modulus, section_field
+from linkwright.parts.beams.cut import STRAIGHT, LinkCut, LinkLine
 from linkwright.parts.beams.elastic import polynomial_text
 from linkwright.parts.fields import MECHANISM, OfMechanism
 from linkwright.words import Message, Translate, _
 
-#: Points of a link lie on a line within this share of its length.
-STRAIGHT = 1e-6
 #: What is the largest over the cycle, with its dimension.
 LARGEST = {
     "largest_moment": "torque",
@@ -206,85 +203,29 @@ class LinkStress(Result):
         return self.problem.link_axis
 
     @cached_property
+    def line(self) -> LinkLine:
+        """The axis with its stations, and the mass along it."""
+        return LinkLine(self.link, self.axis)
+
+    @cached_property
+    def cut(self) -> LinkCut:
+        """The link cut across its axis."""
+        return LinkCut(self.forces, self.line)
+
+    @property
     def mass(self) -> SpreadMass:
         """The link's mass along its axis."""
-        return SpreadMass(self.axis, self.link)
+        return self.line.mass
 
-    @cached_property
-    def acting(self) -> LinkForces:
-        """What acts on the link."""
-        return LinkForces(self.forces, self.problem.link, self.axis)
-
-    @cached_property
+    @property
     def point_forces(self) -> list[PointForce]:
         """All that acts at points."""
-        return self.acting.at_points()
-
-    @cached_property
-    def _laid_out(self) -> tuple[Floats, Indices]:
-        return self.axis.stations([float(s) for s in self.axis.nearest(np.array(list(self.link.points.values())))[0]])
+        return self.cut.point_forces
 
     @property
     def stations(self) -> Floats:
         """Places along the axis (k,), m, every point of the link twice."""
-        return self._laid_out[0]
-
-    @cached_property
-    def _ways(self) -> tuple[Floats, Floats, Floats]:
-        """Points of the stations, unit vectors along and across the axis there, (k, 2) each, in the link's axes."""
-        s, piece = self._laid_out
-        along = self.axis.tangents[piece]
-        return self.axis.at(s, piece), along, np.stack([-along[:, 1], along[:, 0]], axis=1)
-
-    @cached_property
-    def _cut(self) -> tuple[Floats, Floats, Floats]:
-        """Shear, moment, normal (n, k): sums of all that acts below every station."""
-        motion, (points, along, across) = self.forces.motion.link(self.problem.link), self._ways
-        still = np.zeros((self.forces.steps, 2))
-        acceleration = motion.centre.acceleration if self.link.mass else still
-        pull = self.acting.turned(np.asarray(self.problem.mechanism.gravity) - acceleration)
-        alpha, swing = motion.angular_acceleration[:, None], motion.angular_velocity[:, None] ** 2
-        m0, m1, m2 = self.mass.below(*self._laid_out)
-        turned = np.stack([-m1[:, 1], m1[:, 0]], axis=1)
-        force = m0[:, None] * pull[:, None] - alpha[:, :, None] * turned + swing[:, :, None] * m1
-        centre = np.array(self.link.centre, dtype=float)
-        moment = cross(centre, force) + cross(m1[None], pull[:, None]) - alpha * m2
-        for each in self.point_forces:
-            below = self._below(each.place)
-            force = force + below[:, :, None] * each.force[:, None]
-            moment = moment + below * (cross(each.point, each.force) + each.couple)[:, None]
-        left = cross(points[None], force) - moment
-        found = (force * across).sum(axis=2), left, -(force * along).sum(axis=2)
-        self._require_closed(*found)
-        return found
-
-    def _require_closed(self, shear: Floats, moment: Floats, normal: Floats) -> None:
-        """Raises SelfCheckError where more than rounding is left beyond the last point."""
-        sizes = [np.abs(each) for each in (shear, moment / self.axis.length, normal)]
-        gap = max(float(each[:, -1].max()) for each in sizes)
-        most = max(float(each.max()) for each in sizes)
-        if gap > LIMIT * most:
-            raise SelfCheckError(
-                _(
-                    "the forces on {link!r} do not pass their own check: beyond its last point {gap} are "
-                    "left, with forces of up to {size}. This is an error of the program, and no result "
-                    "may be used: please report it with the model file",
-                    code="beam.not_closed",
-                    link=self.problem.link,
-                    gap=shown(gap, "force", 3),
-                    size=shown(most, "force", 3),
-                )
-            )
-
-    def _below(self, place: Floats) -> Floats:
-        """1 where a force at ``place`` (n,) is below a station: of equal stations from the second on."""
-        s = self.stations
-        repeated = np.append(False, np.isclose(s[1:], s[:-1], atol=1e-12 * self.axis.length))
-        gap = s[None, :] - place[:, None]
-        near = np.abs(gap) <= 1e-9 * self.axis.length
-        final = np.zeros(len(s), dtype=bool)
-        final[-1] = True
-        return np.where(near, (repeated | final)[None, :], gap > 0).astype(float)
+        return self.line.stations
 
     @cached_property
     def deflection(self) -> Floats:
@@ -293,7 +234,7 @@ class LinkStress(Result):
         Against the line from the first to the last corner, whose ends stay on it: du/ds = θ n + N/(E A) t,
         dθ/ds = M/(E I).
         """
-        points, along, across = self._ways
+        points, along, across = self.line.directions
         section, modulus = self.problem.section, self.problem.material.modulus
         bend, shear = (
             self.moment / (modulus * section.second_moment),
@@ -316,17 +257,17 @@ class LinkStress(Result):
     @property
     def shear(self) -> Floats:
         """V (n, k), N."""
-        return self._cut[0]
+        return self.cut.shear
 
     @property
     def moment(self) -> Floats:
         """M (n, k), N·m."""
-        return self._cut[1]
+        return self.cut.moment
 
     @property
     def normal(self) -> Floats:
         """N (n, k), N, tension positive."""
-        return self._cut[2]
+        return self.cut.normal
 
     @cached_property
     def stress(self) -> Floats:
@@ -337,8 +278,7 @@ class LinkStress(Result):
     @property
     def closure(self) -> float:
         """Largest force (N) left beyond the last point: zero but for rounding."""
-        ends = [np.abs(each[:, -1]).max() for each in (self.shear, self.normal)]
-        return float(max(*ends, np.abs(self.moment[:, -1]).max() / self.axis.length))
+        return self.cut.closure
 
     def worst(self, values: Floats) -> tuple[int, int]:
         """Position and station of the largest size."""

@@ -1,0 +1,171 @@
+"""The sizes of links and pins, with the criterion that governs each, and the way to them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from linkwright.core.data import Frozen
+from linkwright.core.quantity import shown
+from linkwright.core.table import Amount, Cell, Table, Tabular
+from linkwright.equations.steps import Step, page
+from linkwright.errors import speaker
+from linkwright.mechanism.mechanism import Mechanism
+from linkwright.sizing.allowed import PIN, Allowed
+from linkwright.sizing.links import LINK_CRITERIA, LinkSize
+from linkwright.sizing.pins import PIN_CRITERIA, PinSize
+from linkwright.words import Message, Translate, _, pgettext
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class LinkSizes(Tabular, Frozen):
+    """Sizes of the links and pins of a ``mechanism`` from its largest forces.
+
+    ``allowed``: what the links may bear, and ``thickness`` of all plates, m, by the names of the links; ``links``:
+    those with a width, the frame's among them; ``pins``; ``notes``: given sizes that do not suffice, and what does
+    not fit together.
+    """
+
+    row_names: ClassVar[str | None] = "link"
+    mechanism: Mechanism
+    allowed: Mapping[str, Allowed]
+    thickness: Mapping[str, float]
+    links: Mapping[str, LinkSize]
+    pins: Mapping[str, PinSize]
+    notes: tuple[Message, ...] = ()
+
+    def __repr__(self) -> str:
+        widths = ", ".join(f"{name} {shown(each.width, 'length')}" for name, each in self.links.items())
+        return f"LinkSizes({self.mechanism.name!r}: {widths}; {len(self.pins)} pins)"
+
+    @property
+    def fit(self) -> bool:
+        """Whether all pins leave room for each other."""
+        return not any(note.code == "sizing.no_room" for note in self.notes)
+
+    @property
+    def basis(self) -> tuple[Message, ...]:
+        """What the sizes rest on."""
+        allowed = self.allowed["frame"]
+        return (
+            _(
+                "Safety factor {safety:g} against yield, {buckling:g} against buckling; links of {material} with Re "
+                "= {strength}, pins of steel with Re = {pin}, pressure of running pins up to {pressure}.",
+                safety=allowed.safety,
+                buckling=allowed.buckling,
+                material=allowed.material.name or pgettext("sizing", "their material"),
+                strength=Amount(allowed.material.strength, "pressure").text,
+                pin=Amount(PIN.strength, "pressure").text,
+                pressure=Amount(allowed.running, "pressure").text,
+            ),
+            _(
+                "Links on a pin are taken to lie next to each other, and loads as often as they come: fatigue is not "
+                "checked. Guides, blocks, wheels and cams are not sized."
+            ),
+        )
+
+    def tables(self, language: str = "en", *args: Any, **options: Any) -> tuple[Table, ...]:
+        """One table of the links, one of the pins, and what they rest on."""
+        notes = [each.translate(language) for each in (*self.notes, *self.basis)]
+        return (
+            Table(title=self.mechanism.translate(language).name),
+            self.link_table(),
+            self.pin_table(),
+            Table(notes=notes),
+        )
+
+    def link_table(self) -> Table:
+        """Links with the force on their pins, bending moment, criterion, width, thickness and safety."""
+        head = (_("link"), _("force"), _("moment"), _("criterion"), _("width"), _("thickness"), _("safety"))
+        rows: list[list[Cell]] = [
+            [
+                name,
+                Amount(size.load.force, "force", 4),
+                None if size.load.moment is None else Amount(size.load.moment.value, "torque", 4),
+                _given(size.given) or LINK_CRITERIA[size.criterion],
+                Amount(size.width, "length"),
+                Amount(size.load.thickness, "length"),
+                Amount(size.safety, digits=3),
+            ]
+            for name, size in self.links.items()
+        ]
+        return Table(head, rows, "<>><>>>", title=_("Links"))
+
+    def pin_table(self) -> Table:
+        """Pins with their force, pressure, criterion and diameter."""
+        head = (_("pin"), _("fixed in"), _("force"), _("pressure"), _("criterion"), _("diameter"))
+        rows: list[list[Cell]] = [
+            [
+                name,
+                size.load.seat.link,
+                Amount(size.load.force, "force", 4),
+                Amount(size.pressure, "pressure", 3),
+                _given(size.given) or PIN_CRITERIA[size.criterion],
+                Amount(size.diameter, "length"),
+            ]
+            for name, size in self.pins.items()
+        ]
+        return Table(head, rows, "<<>><>", title=_("Pins"))
+
+    def steps(self, translate: Translate) -> list[Step]:
+        """The worked solution: every pin, then every link."""
+        found = [size.step(f"1.{k}", translate) for k, size in enumerate(self.pins.values(), 1)]
+        return found + [size.step(f"2.{k}", translate) for k, size in enumerate(self.links.values(), 1)]
+
+    def worked(self, language: str = "en") -> str:
+        """The worked solution as plain text."""
+        title = _("{name}: sizes of pins and links", name=self.mechanism.translate(language).name)
+        basis = [each.translate(language) for each in self.basis]
+        return page((title.translate(language), *basis), self.steps(speaker(language)))
+
+    def columns(self) -> Mapping[str, Sequence[Any]]:
+        """The links with their widths and thicknesses, m, and safety factors."""
+        sizes = self.links.values()
+        return {
+            "link": list(self.links),
+            "force [N]": [each.load.force for each in sizes],
+            "width [m]": [each.width for each in sizes],
+            "thickness [m]": [each.load.thickness for each in sizes],
+            "safety": [each.safety for each in sizes],
+        }
+
+    def data(self) -> Mapping[str, Any]:
+        """Plain data, SI."""
+        return {
+            "name": self.mechanism.name,
+            "links": {name: _link_data(each) for name, each in self.links.items()},
+            "pins": {name: _pin_data(each) for name, each in self.pins.items()},
+            "notes": [*self.notes, *self.basis],
+        }
+
+
+def _given(given: bool) -> Message | None:
+    return pgettext("sizing", "given") if given else None
+
+
+def _link_data(size: LinkSize) -> dict[str, Any]:
+    moment, pressed = size.load.moment, size.load.compression
+    return {
+        "force": size.load.force,
+        "moment": None if moment is None else moment.value,
+        "compression": None if pressed is None else pressed.value,
+        "criterion": size.criterion,
+        "needed": dict(size.needs),
+        "width": size.width,
+        "thickness": size.load.thickness,
+        "safety": size.safety,
+        "given": size.given,
+    }
+
+
+def _pin_data(size: PinSize) -> dict[str, Any]:
+    return {
+        "fixed_in": size.load.seat.link,
+        "force": size.load.force,
+        "pressure": size.pressure,
+        "criterion": size.criterion,
+        "needed": dict(size.needs),
+        "diameter": size.diameter,
+        "given": size.given,
+    }
