@@ -52,6 +52,7 @@ arrows = together(
     ),
     flag("--static", help=_("forces without inertia")),
     flag("--centres", help=_("mark the mass centres")),
+    flag("--outlines", help=_("parts as they are made, to scale, in place of symbols")),
 )
 
 
@@ -80,6 +81,7 @@ def vectors(motion: Motion, options: Options, *, solved: bool) -> dict[str, Any]
         "forces": forces,
         "reactions_of": names(options.forces) or None,
         "centres": options.centres,
+        "outlines": options.outlines,
     }
 
 

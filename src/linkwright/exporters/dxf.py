@@ -17,7 +17,7 @@ from linkwright.exporters.results import Results
 from linkwright.fields.colour import as_rgb
 from linkwright.pictures.fonts import needs_chinese
 from linkwright.pictures.labels import Candidate, Label, Obstacles, place, text_of
-from linkwright.pictures.picture import CAPITAL, Circle, Item, Line, Text, Vec, unbroken
+from linkwright.pictures.picture import CAPITAL, Circle, Inked, Item, Line, Outline, Text, Vec, unbroken
 from linkwright.pictures.symbols.base import PIN, points
 from linkwright.plotting.drawing.dimensions import Dimensioned, dimension_lines
 from linkwright.plotting.drawing.scene import body_labels, laid_out, point_labels
@@ -55,6 +55,10 @@ def add(space: Any, item: Item, layer: str, **attributes: str | int) -> None:
         _text(space, item, layer)
     elif isinstance(item, Circle):
         space.add_circle(tuple(item.at), item.radius, dxfattribs=dxf_attributes)
+    elif isinstance(item, Outline):
+        for corners, bulges in item.loops:
+            rows = np.column_stack([corners, bulges]).tolist()
+            space.add_lwpolyline(rows, format="xyb", close=True, dxfattribs=dxf_attributes)
     elif len(item.points) == 2 and not item.closed:
         space.add_line(*item.points.tolist(), dxfattribs=dxf_attributes)
     elif len(item.points) > 1:
@@ -133,7 +137,7 @@ class Sheet:
         for part in self.scene.parts:
             if part.layer == "bodies":  # exact lines
                 colour = as_rgb(self.results.mechanism.link(part.carrier).colour)
-                items: Iterable[Line | Circle] = [Line(line, colour=colour) for line in part.shape.ink]
+                items: Iterable[Inked] = [Line(line, colour=colour) for line in part.shape.ink]
             elif part.layer in _OF_PART:
                 items = part.shape.elements
             else:
@@ -227,11 +231,11 @@ class Sheet:
         scaled: Floats = paper * (self.unit, -self.unit)
         return scaled
 
-    def _item(self, item: Line | Circle, carrier: str, layer: str) -> None:
+    def _item(self, item: Inked, carrier: str, layer: str) -> None:
         machine = self.scene.machine
         x, y, turn = machine.view.transform(machine.placed[carrier], self.index)
         at = item.placed(np.array([x, y]), math.radians(turn)).placed(np.zeros(2), scale=(self.unit, -self.unit))
-        colour = at.colour if isinstance(at, Line) else ""
+        colour = "" if isinstance(at, Circle) else at.colour
         add(self.space, at, layer, **({"true_color": int(colour[1:], 16)} if colour else {}))
 
     def _pins(self) -> None:

@@ -56,6 +56,7 @@ CSS = "".join(
         f".lw-point,.lw-weld,.lw-mass{{fill:{INK}}}",
         f".lw-support,.lw-rim{{fill:#fff;stroke:{INK};stroke-width:1.6;stroke-linejoin:round}}",
         f".lw-ground{{fill:none;stroke:{INK};stroke-width:1.8;stroke-linecap:round}}",
+        f".lw-base{{fill:#eceff2;fill-opacity:.6;stroke:{GROUND};stroke-width:1.2;stroke-linejoin:round}}",
         f".lw-hatch{{fill:none;stroke:{GROUND};stroke-width:1}}",
         f".lw-strand{{fill:none;stroke:{INK};stroke-width:1.6}}",
         f".lw-pitch{{fill:none;stroke:{GROUND};stroke-width:.9;stroke-dasharray:9 2.5 1.5 2.5}}",

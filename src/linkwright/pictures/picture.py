@@ -10,14 +10,14 @@ import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Literal, TypeAlias
+from typing import ClassVar, Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
 from linkwright.pictures.fonts import needs_chinese
-from linkwright.pictures.svg import Attribute, Element, element, number, path_data, split_index
+from linkwright.pictures.svg import Attribute, Element, element, loop_data, number, path_data, split_index
 from linkwright.pictures.svg import width as text_width
 
 #: Kinds of lines after GB/T 4457.4 and ISO 128-2: ``frame`` and ``thick`` are wide, the others have half their width;
@@ -153,6 +153,72 @@ class Circle:
         return str(element("circle", attributes))
 
 
+#: Angle of an arc, rad, that is drawn as one line where lines are to stand for it.
+CHORD = math.pi / 12
+
+
+@dataclass(frozen=True)
+class Outline:
+    """Closed loops of lines and arcs, the area between them filled.
+
+    ``loops``: corners (k, 2), and the bulges (k,) of the edges that begin there: the tangent of a quarter of the
+    arc's angle, positive from x to y, 0 for a line.
+    """
+
+    loops: tuple[tuple[Floats, Floats], ...]
+    style: str = "thin"
+    fill: Fill = ""
+    colour: str = ""
+    closed: ClassVar[bool] = True
+
+    def placed(self, shift: Floats, turn: float = 0.0, scale: Vec = (1.0, 1.0)) -> Outline:
+        """The same scaled, turned (rad, from x to y) and shifted."""
+        sense = math.copysign(1.0, scale[0] * scale[1])
+        loops = tuple((_placed(corners, shift, turn, scale), sense * bulges) for corners, bulges in self.loops)
+        return replace(self, loops=loops)
+
+    @property
+    def points(self) -> Floats:
+        """Its loops as polylines, each back to its start, with rows of NaN between them."""
+        gap = np.full((1, 2), np.nan)
+        lines = [np.vstack([*_chords(corners, bulges), corners[:1], gap]) for corners, bulges in self.loops]
+        return np.vstack(lines)[:-1]
+
+    @property
+    def cloud(self) -> Floats:
+        """Places between which it lies."""
+        return self.points[np.isfinite(self.points).all(axis=1)]
+
+    @property
+    def outline(self) -> Floats:
+        """The line along which it has ink."""
+        return self.points
+
+    def __str__(self) -> str:
+        attributes: dict[str, Attribute | None] = {
+            "class": f"{self.style} {self.fill}".rstrip(),
+            "fill-rule": "evenodd" if len(self.loops) > 1 else None,
+            "d": "".join(loop_data(corners, bulges) for corners, bulges in self.loops),
+        }
+        if self.colour:
+            attributes |= {"class": f"{self.style}-coloured", "stroke": self.colour, "fill": self.colour}
+        return str(element("path", attributes))
+
+
+def _chords(corners: Floats, bulges: Floats) -> Iterator[Floats]:
+    """The edges of a loop as polylines without their ends."""
+    for start, end, bulge in zip(corners, np.roll(corners, -1, axis=0), bulges, strict=True):
+        angle = 4.0 * math.atan(bulge)
+        count = max(1, math.ceil(abs(angle) / CHORD))
+        if count == 1:
+            yield start[None]
+            continue
+        chord = complex(*(end - start))
+        share = np.arange(count) / count
+        along = np.sin(0.5 * angle * share) / math.sin(0.5 * angle) * np.exp(0.5j * angle * (share - 1.0)) * chord
+        yield start + np.stack([along.real, along.imag], axis=1)
+
+
 @dataclass(frozen=True)
 class Text:
     """A line of text: its baseline begins, has its middle or ends at ``at``; ``size`` of its font.
@@ -238,7 +304,9 @@ def _placed(points: Floats, shift: Floats, turn: float = 0.0, scale: Vec = (1.0,
     return np.asarray(shift + (points * scale) @ np.array([(c, s), (-s, c)]))
 
 
-Item: TypeAlias = Line | Circle | Text
+#: What has ink.
+Inked: TypeAlias = Line | Circle | Outline
+Item: TypeAlias = Inked | Text
 #: What an SVG document consists of.
 SvgNode: TypeAlias = Element | Item
 

@@ -94,6 +94,23 @@ def path_data(points: Floats, *, closed: bool = False) -> str:
     return "".join(parts) + ("Z" if closed and parts else "")
 
 
+def loop_data(corners: Floats, bulges: Floats) -> str:
+    """A closed loop of lines and arcs as the text of a ``d`` attribute: corners (k, 2), and the tangents of a quarter
+    of the angles of the edges that begin there, (k,)."""
+    start, *others = corners.tolist()
+    parts = [f"M{number(start[0])} {number(start[1])}"]
+    here = start
+    for (x, y), bulge in zip([*others, start], bulges.tolist(), strict=True):
+        end = f"{number(x)} {number(y)}"
+        if bulge:
+            radius = number(math.hypot(x - here[0], y - here[1]) * (1.0 + bulge * bulge) / (4.0 * abs(bulge)))
+            parts.append(f"A{radius} {radius} 0 {int(abs(bulge) > 1.0)} {int(bulge > 0.0)} {end}")
+        else:
+            parts.append(f"L{end}")
+        here = [x, y]
+    return "".join(parts) + "Z"
+
+
 NARROW = frozenset("iljfI.,:;'|![]() ")
 WIDE = frozenset("mwMW@%")
 #: A space at which no line breaks.

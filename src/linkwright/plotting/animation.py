@@ -126,6 +126,7 @@ def animate(
     seconds: float | None = None,
     frames: int | None = None,
     centres: bool = False,
+    outlines: bool = False,
     labels: bool = True,
     size: float | None = None,
     language: str = "en",
@@ -135,7 +136,7 @@ def animate(
     Args:
         source: a motion, a mechanism whose cycle is solved first, or a run, which is shown in true time.
         paths: points whose paths are shown, with a dot that runs along; default the one that follows a path.
-        velocities, accelerations, forces, reactions_of, centres, size, language: as for ``draw``.
+        velocities, accelerations, forces, reactions_of, centres, outlines, size, language: as for ``draw``.
         curves: results drawn below with a cursor that runs with the drawing (``"jaw.angle"``, ``"driver.effort"``, a
             column of ``motion.columns()`` or of the forces').
         seconds: time of one cycle on the screen; default that of the motion, within 2 to 6 s.
@@ -177,7 +178,7 @@ def animate(
         point_key(machine, name)
     motion = source if isinstance(source, Motion) else solve_motion(source, failures="mark")
     run = frame_indices(motion, frames)
-    scene = laid_out(motion, run[0], centres=centres)
+    scene = laid_out(motion, run[0], centres=centres, outlines=outlines)
     known = solved(motion, forces)
     arrows = all_arrows(motion, velocities, accelerations, known, reactions_of)
     shown, used = curves_named(scene.machine.motion, known, curves)

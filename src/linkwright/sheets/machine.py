@@ -22,7 +22,7 @@ from linkwright.kinetostatics.forces import Forces, link_numbers
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.pictures.labels import TO_UNITS, UNIT, Label, Name, put
-from linkwright.pictures.picture import MIN_TEXT, Circle, Fill, Line, Pen, Picture, Vec, as_runs, indexed, joined
+from linkwright.pictures.picture import MIN_TEXT, Fill, Inked, Pen, Picture, Vec, as_runs, indexed, joined
 from linkwright.pictures.symbols.base import SYMBOLS, vec
 from linkwright.plotting.drawing.loads import load_labels, load_marks
 from linkwright.plotting.drawing.machine import View, extent_of
@@ -56,7 +56,7 @@ _STYLES: dict[str, tuple[Pen, Fill]] = {
 _OUTLINED = ("bodies", "blocks")
 
 
-def draw_elements(picture: Picture, elements: Iterable[Line | Circle], style: str = "") -> None:
+def draw_elements(picture: Picture, elements: Iterable[Inked], style: str = "") -> None:
     """Lines and circles in units of symbols as those of the sheet; with a ``style`` all in it and nothing filled."""
     for each in elements:
         own, fill = _STYLES.get(each.style, ("thin", "ink" if each.style.endswith("-head") else ""))

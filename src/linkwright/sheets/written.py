@@ -10,7 +10,7 @@ import numpy as np
 
 from linkwright.core.arrays import Floats
 from linkwright.exporters.dxf import add, content_of, new_document
-from linkwright.pictures.picture import Circle, Item, Line, Text
+from linkwright.pictures.picture import Circle, Inked, Item, Line, Outline, Text
 from linkwright.pictures.svg import FAMILY_LIST, element, number
 from linkwright.sheets.paper import Paper
 
@@ -113,11 +113,15 @@ def _limits(document: Any, paper: Paper) -> None:
     document.set_modelspace_vport(height=1.05 * paper.height, center=(paper.width / 2, paper.height / 2))
 
 
-def _shape(space: Any, item: Line | Circle, covers: list[Line | Circle]) -> None:
+def _shape(space: Any, item: Inked, covers: list[Inked]) -> None:
     if item.fill == "ink":
         hatch = space.add_hatch(color=7, dxfattribs={"layer": item.style})
         if isinstance(item, Line):
             hatch.paths.add_polyline_path(item.points.tolist(), is_closed=True)
+            return
+        if isinstance(item, Outline):
+            for corners, bulges in item.loops:
+                hatch.paths.add_polyline_path(np.column_stack([corners, bulges]).tolist(), is_closed=True)
             return
         hatch.paths.add_edge_path().add_arc(tuple(item.at), radius=item.radius, start_angle=0, end_angle=360)
     low, high = item.cloud.min(axis=0), item.cloud.max(axis=0)
@@ -127,12 +131,12 @@ def _shape(space: Any, item: Line | Circle, covers: list[Line | Circle]) -> None
         add(space, each, item.style)
 
 
-def _touches(cover: Line | Circle, low: Floats, high: Floats) -> bool:
+def _touches(cover: Inked, low: Floats, high: Floats) -> bool:
     cloud = cover.cloud
     return bool((cloud.min(axis=0) <= high).all() and (cloud.max(axis=0) >= low).all())
 
 
-def visible(outline: Floats, covers: Iterable[Line | Circle]) -> Iterator[Floats]:
+def visible(outline: Floats, covers: Iterable[Inked]) -> Iterator[Floats]:
     """The pieces (k, 2) of a polyline that lie outside of circles and convex polygons."""
     shapes = list(covers)
     piece: list[Floats] = []
@@ -149,7 +153,7 @@ def visible(outline: Floats, covers: Iterable[Line | Circle]) -> Iterator[Floats
         yield np.array(piece)
 
 
-def _outside(start: Floats, end: Floats, shapes: list[Line | Circle]) -> list[tuple[float, float]]:
+def _outside(start: Floats, end: Floats, shapes: list[Inked]) -> list[tuple[float, float]]:
     """The shares of the way from start to end that no shape covers."""
     free = [(0.0, 1.0)]
     for shape in shapes:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkwright.core.arrays import Floats
-from linkwright.pictures.picture import Circle, Line, Vec
+from linkwright.pictures.picture import Inked, Vec
 from linkwright.registry import Registry
 from linkwright.words import _
 
@@ -28,7 +28,7 @@ HATCH = (6.0, 7.0)
 class Shape:
     """Lines and circles of a symbol; the polylines (k, 2) along which it has ink, for keeping labels clear of it."""
 
-    elements: tuple[Line | Circle, ...]
+    elements: tuple[Inked, ...]
     ink: tuple[Floats, ...] = ()
 
     def __add__(self, other: Shape) -> Shape:

@@ -21,7 +21,7 @@ from linkwright.kinematics.motion import Motion
 from linkwright.kinetostatics.signals import MotionSignals
 from linkwright.pictures.diagram import INK, Axes, Figure
 from linkwright.pictures.labels import Label, Obstacles, place
-from linkwright.pictures.picture import Circle, Line, round_up
+from linkwright.pictures.picture import Circle, round_up
 from linkwright.pictures.svg import split_index
 from linkwright.pictures.symbols.base import SYMBOLS, vec
 from linkwright.plotting.diagrams.axes import InputAxis, Unit
@@ -360,7 +360,7 @@ def draw_machine(names: Names, motion: Motion, index: int, *, factor: float) -> 
     for number, (_, item) in enumerate(scene.items(index)):
         line, order = item.outline * to_axes, 1.5 + 1e-4 * number
         thick = item.style in ("lw-bar", "lw-plate")
-        own = item.colour if isinstance(item, Line) else ""
+        own = "" if isinstance(item, Circle) else item.colour
         if item.style == "lw-pitch":
             dash: tuple[int, tuple[float, ...]] = (0, (8, 2, 1.5, 2))
         else:

@@ -22,6 +22,7 @@ from linkwright.pictures.svg import fold, group
 from linkwright.plotting.drawing.dimensions import Dimension, dimension_lines
 from linkwright.plotting.drawing.loads import load_labels, load_marks, unmarked
 from linkwright.plotting.drawing.machine import DIAGONAL
+from linkwright.plotting.drawing.outlines import notes_of_outlines
 from linkwright.plotting.drawing.scene import (
     At,
     Scene,
@@ -77,6 +78,7 @@ def draw(
     reactions_of: Sequence[str] | None = None,
     dimensions: Sequence[Dimension] | bool = (),
     centres: bool = False,
+    outlines: bool = False,
     inputs: bool = True,
     labels: bool | str = True,
     size: float | None = None,
@@ -101,6 +103,8 @@ def draw(
         dimensions: links (``frame`` among them) with the lengths and angles that place their points, or pairs of
             points with their distance; True for all links.
         centres: mark the mass centres.
+        outlines: draw the parts as they are made, to scale, in place of the standard symbols: plates of the links
+            with slots and holes, guides, blocks, pins, wheels to the tips of their teeth.
         inputs: show by arrows what is driven and which way, and actuators and end stops by their symbols.
         labels: names of points, links and loads; ``"points"``: of points only. Vectors always have theirs.
         size: longer side in pixels; default natural size.
@@ -127,9 +131,10 @@ def draw(
     shown = _shown(motion, position, at, time)
     ghosts, style = _overlay(motion, overlay)
     scene, index, others = laid_out_with_ghosts(
-        motion, shown, ghosts, inputs=inputs, centres=centres, diagonal=diagonal
+        motion, shown, ghosts, inputs=inputs, centres=centres, outlines=outlines, diagonal=diagonal
     )
     sketch = MachineSketch(scene, index, shown.index)
+    sketch.notes += notes_of_outlines(scene.machine, language) if outlines else ()
     sketch.ghosts(others, style)
     paths = one_or_more(paths) or followed(motion.mechanism)
     sketch.draw(scene.traces(paths), [scene.trace(name) for name in paths])
@@ -221,7 +226,14 @@ class MachineSketch(Sketch):
 
 
 def laid_out_with_ghosts(
-    motion: Motion, shown: Shown, ghosts: Sequence[Shown], *, inputs: bool, centres: bool, diagonal: float = DIAGONAL
+    motion: Motion,
+    shown: Shown,
+    ghosts: Sequence[Shown],
+    *,
+    inputs: bool,
+    centres: bool,
+    outlines: bool = False,
+    diagonal: float = DIAGONAL,
 ) -> tuple[Scene, int, list[int]]:
     """The scene of a motion with ghost positions; their indices in the scene."""
     others = [each for each in (shown, *ghosts) if each.motion is not motion]
@@ -235,6 +247,7 @@ def laid_out_with_ghosts(
         place(shown),
         inputs=inputs,
         centres=centres,
+        outlines=outlines,
         others=[(each.motion, each.index) for each in others],
         diagonal=diagonal,
     )

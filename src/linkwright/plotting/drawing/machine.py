@@ -22,7 +22,7 @@ from linkwright.joints.lower_pair import SlidingJoint, TurningJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import Placement
 from linkwright.mechanism.link import Link
-from linkwright.pictures.picture import Line, Vec
+from linkwright.pictures.picture import Line, Outline, Vec
 from linkwright.pictures.symbols.base import PIN, SYMBOLS, Shape, points
 from linkwright.words import _
 
@@ -115,7 +115,9 @@ def coloured(part: Part, colour: str) -> Part:
     if part.layer not in ("bodies", "tops"):
         return part
     elements = (
-        replace(each, colour=colour) if isinstance(each, Line) and each.style in ("lw-bar", "lw-plate") else each
+        replace(each, colour=colour)
+        if isinstance(each, Line | Outline) and each.style in ("lw-bar", "lw-plate")
+        else each
         for each in part.shape.elements
     )
     return replace(part, shape=replace(part.shape, elements=tuple(elements)))
@@ -189,11 +191,12 @@ def bodies(machine: DrawnMechanism) -> Iterator[Part]:
             yield Part("bodies", link.name, SYMBOLS["plate"](corners=cloud))
         elif len(ends) == 2 and np.hypot(*(ends[1] - ends[0])) > 1.0:
             yield Part("bodies", link.name, SYMBOLS["bar"](through=ends))
-        for name in _plain_points(machine, link):
+        for name in plain_points(machine, link):
             yield Part("pins", link.name, SYMBOLS["point"](at=machine.local(link.name, name)))
 
 
-def _plain_points(machine: DrawnMechanism, link: Link) -> list[str]:
+def plain_points(machine: DrawnMechanism, link: Link) -> list[str]:
+    """Points of a link that are no joints and hold nothing."""
     guided = {j.at for j in machine.guides.values() if j.block == link.name}
     through = {j.through for j in machine.guides.values() if j.guide == link.name}
     joints = machine.motion.mechanism.joints

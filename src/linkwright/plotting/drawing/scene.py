@@ -19,7 +19,7 @@ from linkwright.kinematics.placement import placements, with_placements_of
 from linkwright.kinematics.positions import at_inputs
 from linkwright.kinematics.solve import solve_motion, with_times
 from linkwright.pictures.labels import Label
-from linkwright.pictures.picture import Circle, Line, SvgNode, Vec
+from linkwright.pictures.picture import Inked, Line, SvgNode, Vec
 from linkwright.pictures.svg import group, number
 from linkwright.pictures.symbols.base import LINE, SYMBOLS, points, vec
 from linkwright.plotting.drawing.actuators import actuators, flywheels, stops
@@ -38,6 +38,7 @@ from linkwright.plotting.drawing.machine import (
     moved,
     pins,
 )
+from linkwright.plotting.drawing.outlines import outlines_of
 from linkwright.words import _
 
 
@@ -66,7 +67,7 @@ class Scene:
             if not (moving_only and layer == "marks")
         ]
 
-    def items(self, index: int) -> Iterator[tuple[Part, Line | Circle]]:
+    def items(self, index: int) -> Iterator[tuple[Part, Inked]]:
         """The lines and circles of the machine at one position, on the paper, with the parts to which they belong."""
         for _layer, link, parts in self.layered():
             x, y, turn = self.machine.view.transform(self.machine.placed[link], index)
@@ -112,18 +113,20 @@ def laid_out(
     inputs: bool = True,
     centres: bool = False,
     others: Sequence[tuple[Motion, int]] = (),
+    outlines: bool = False,
     diagonal: float = DIAGONAL,
     view: View | None = None,
 ) -> Scene:
     """The scene of a motion; ``inputs``: with what drives, brakes and stops it, arrows of the drivers as at the
-    position ``index``.
+    position ``index``; ``outlines``: with parts as they are made in place of symbols.
 
     ``beside``: positions of other motions of the mechanism, counted on after its own; ``view``: instead of one in
     which the machine has the ``diagonal``.
     """
     placed = with_placements_of(placements(motion), others)
     machine = DrawnMechanism(motion, placed, view or fitted(motion, placed, diagonal), others)
-    parts = parts_of(machine)
+    parts = [*outlines_of(machine)] if outlines else parts_of(machine)
+    parts = _in_colours(machine, parts)
     if inputs:
         parts = [part for part, _pin in flywheels(machine)] + parts
         parts += [*(part for part, _pin in actuators(machine, index)), *stops(machine)]
@@ -135,7 +138,11 @@ def laid_out(
 
 def parts_of(machine: DrawnMechanism) -> list[Part]:
     """Wheels, bodies and joints."""
-    parts = [*wheels(machine), *bodies(machine), *guides(machine), *pins(machine), *welds(machine)]
+    return [*wheels(machine), *bodies(machine), *guides(machine), *pins(machine), *welds(machine)]
+
+
+def _in_colours(machine: DrawnMechanism, parts: list[Part]) -> list[Part]:
+    """Parts in the colours of their links."""
     colours = {link.name: as_rgb(link.colour) for link in machine.motion.mechanism.links.values() if link.colour}
     return [coloured(part, colours[part.carrier]) if part.carrier in colours else part for part in parts]
 
