@@ -99,6 +99,8 @@ NAMES = {
     "choose_motor": "目录中能起动、带动且不过热的最小电动机",
     "MotorDuty": "电动机的工作点：均方根、峰值、能量、起动时间",
     "motor_duty": "求电动机在循环中的工作点",
+    "interference": "整个循环内的干涉：各零件之间的最小间隙",
+    "Interference": "干涉检查的结果：每对零件的最小间隙及其位置",
     "SteadyRunning": "稳定运转的结果：飞轮、真实转速",
     "TorqueCurve": "没有机构的力矩曲线",
     "steady_running": "电动机、飞轮与真实转速",

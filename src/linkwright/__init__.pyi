@@ -20,6 +20,8 @@ from .cams.shape import CamChoice as CamChoice
 from .cams.shape import CamConjugate as CamConjugate
 from .cams.shape import CamElasticity as CamElasticity
 from .cams.shape import CamLimits as CamLimits
+from .collisions.result import Interference as Interference
+from .collisions.result import interference as interference
 from .core.progress import reporting as reporting
 from .core.table import Tabular as Tabular
 from .course.grade import Grade as Grade

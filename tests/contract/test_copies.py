@@ -101,6 +101,7 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "range": lambda: lw.input_range(CRUSHER()),
     "metrics": lambda: lw.metrics(crusher()),
     "coupler curve": lambda: coupler_curve(lw.solve_motion(lw.load("gallery:chebyshev_lambda"), steps=48), "P"),
+    "interference": lambda: lw.interference(lw.load("gallery:crank_rocker")),
     "steady running": lambda: lw.steady_running(crusher(), fluctuation=0.03),
     "drive margin": lambda: lw.drive_margin(CRUSHER(), steps=24),
     "motor choice": lambda: lw.choose_motor(lw.load("gallery:jaw_crusher_fourbar"), steps=24),

@@ -31,7 +31,7 @@ STAGES = (
     ("cams", "gears", "parts"),
     ("sizing",),
     ("solids",),
-    ("interference",),
+    ("collisions",),
     ("layering",),
     ("designs", "synthesis"),
     ("reports", "plotting", "exporters", "page", "validation", "course", "sheets", "fabrication"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from linkwright.interference.gaps import Gap
+from linkwright.collisions.gaps import Gap
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.solids.solid import Solids
 

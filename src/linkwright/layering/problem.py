@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
 
-from linkwright.interference.gaps import Gap
+from linkwright.collisions.gaps import Gap
 
 #: What of a body must not be where another one is: the body itself, or the heads at its ends.
 Part = Literal["body", "heads"]

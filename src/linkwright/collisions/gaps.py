@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from linkwright.interference.relative_paths import RelativePaths
-from linkwright.interference.search import Search
-from linkwright.interference.spans import Spans
+from linkwright.collisions.relative_paths import RelativePaths
+from linkwright.collisions.search import Search
+from linkwright.collisions.spans import Spans
 from linkwright.kinematics.motion import Motion
 from linkwright.shapes.shape import Shape
 
@@ -57,8 +57,8 @@ def smallest_gaps(
     poses = [2 * carriers.index((one.carrier, other.carrier)) for one, other in asked]
     search = Search(paths, [(one.shape, other.shape) for one, other in asked], poses)
     found = search.nearest()
-    time = paths.time(found.piece, found.x)
-    where = paths.input(found.piece, time)
+    time = paths.pieces.time(found.piece, found.x)
+    where = paths.pieces.input(found.piece, time)
     host = [(one, other)[pose & 1].carrier for (one, other), pose in zip(asked, found.pose.tolist(), strict=True)]
     place, turn = paths.in_frame(host, found.piece, found.x)
     middle = place + turn * found.place

@@ -13,10 +13,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from linkwright.collisions.columns import Columns
+from linkwright.collisions.features import Meetings, Outlines, distances
+from linkwright.collisions.relative_paths import RelativePaths
 from linkwright.core.arrays import Complexes, Flags, Floats, Indices
-from linkwright.interference.columns import Columns
-from linkwright.interference.features import Meetings, Outlines, distances
-from linkwright.interference.relative_paths import RelativePaths
 
 
 @dataclass(frozen=True, eq=False)

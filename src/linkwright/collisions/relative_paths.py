@@ -7,19 +7,14 @@ from functools import cached_property
 
 import numpy as np
 
-from linkwright.analysis.analysis import Analysis
-from linkwright.analysis.reachable_intervals import Ways
+from linkwright.collisions.cycle_pieces import CyclePieces
 from linkwright.core.arrays import Complexes, Flags, Floats, Indices
 from linkwright.curves.polynomials import POINTS, SERIES, SLOPE
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import placements
 
-#: Pieces of a lap to begin with.
-PIECES = 24
 #: Poses nearer to each other than this share of the size are one, so that nothing jumps between two pieces.
 SAME = 1e-6
-#: Added to every signal, each of about size 1, so that what is zero but for rounding is not taken for a signal.
-_LEVEL = 2.0
 #: Signals of a pair of links: place, turn, place the other way (two components each), and the place's square.
 _OF_PAIR = 7
 _CURVATURE: Floats = (SLOPE @ SLOPE)[: POINTS - 2] @ SERIES
@@ -31,41 +26,16 @@ class RelativePaths:
     A pose is a place z, m, and a turn u = exp(iφ): the point w of one link is at z + u·w in the axes of the other.
     ``place``, ``turn``: Chebyshev coefficients (poses, pieces, orders) over places -1 to 1 of a piece;
     ``place_curvature``, ``turn_curvature``, ``square_curvature`` (of |z|²): those of second derivatives by these.
-    ``exact``: whether they hold between the positions that were solved; if not, every position is a piece without
-    width. ``fresh``: pieces that do not go on from the one before.
+    ``fresh``: pieces that do not go on from the one before.
     """
 
     def __init__(self, motion: Motion, pairs: Sequence[tuple[str, str]]) -> None:
         self.motion, self.pairs = motion, [*pairs]
         self.size = motion.mechanism.size
         self.carriers = [*dict.fromkeys(link for pair in pairs for link in pair)]
-        self._analysis = Analysis.of(motion)
-        values = self._between() or self._positions()
-        self.exact = self._ways is not None
-        self._build(*values)
-
-    def _between(self) -> tuple[Floats, Floats, Floats] | None:
-        """The signals (signals, POINTS, pieces), and the ends of the pieces; None where nothing is known between the
-        positions, or something grows without bound."""
-        self._ways: Ways | None = self._analysis.ways
-        if self._ways is not None:
-            found = self._ways.curve(self._signals, "motion", self._count, PIECES)
-            known = np.isfinite(found.values).all() and not (found.unbounded | found.unresolved).any()
-            if known:
-                low, high = found.edges[:-1], found.edges[1:].copy()
-                high[np.flatnonzero(low[1:] == low[0])] = found.edges[-1]
-                return found.values, low, high
-        self._ways = None
-        return None
-
-    def _positions(self) -> tuple[Floats, Floats, Floats]:
-        """The same at the positions alone."""
-        motion = self._analysis.motion
-        values = self._signals(motion)
-        good = np.flatnonzero(motion.ok & np.isfinite(values).all(axis=0))
-        self._numbers = good
-        found = np.repeat(values[:, None, good], POINTS, axis=1)
-        return found, motion.time[good], motion.time[good]
+        self.pieces = CyclePieces(motion, self._signals, self._count)
+        self.count, self.exact = self.pieces.count, self.pieces.exact
+        self._build(self.pieces.values)
 
     @property
     def _count(self) -> int:
@@ -87,14 +57,10 @@ class RelativePaths:
             rows += [place.real, place.imag, turn.real, turn.imag, back.real, back.imag, np.abs(place) ** 2]
         for place, turn in own.values():
             rows += [place.real / self.size, place.imag / self.size, turn.real, turn.imag]
-        return np.stack(rows) + _LEVEL
+        return np.stack(rows)
 
-    def _build(self, values: Floats, low: Floats, high: Floats) -> None:
+    def _build(self, values: Floats) -> None:
         count, size = len(self.pairs), self.size
-        self.low, self.high = low, high
-        self.count = len(low)
-        self.way: Indices = np.cumsum(low == low[0]) - 1 if self.exact else np.zeros(len(low), dtype=np.intp)
-        values = np.moveaxis(values - _LEVEL, 1, 2)
         of_pairs = values[: _OF_PAIR * count].reshape(count, _OF_PAIR, self.count, POINTS)
         place, turn, back = (of_pairs[:, k] + 1j * of_pairs[:, k + 1] for k in (0, 2, 4))
         places = size * np.stack([place, back], axis=1).reshape(2 * count, self.count, POINTS)
@@ -131,34 +97,6 @@ class RelativePaths:
         number, basis = np.array([self.carriers.index(each) for each in carriers], dtype=np.intp), _basis(x)
         place, turn = self._own_place[number, piece], self._own_turn[number, piece]
         return (place * basis).sum(axis=-1), (turn * basis).sum(axis=-1)
-
-    def time(self, piece: Indices, x: Floats) -> Floats:
-        """Times, s, of places of pieces."""
-        place = self.low[piece] + 0.5 * (1.0 + x) * (self.high[piece] - self.low[piece])
-        return place if self._ways is None else self._ways.time(place, self.way[piece])
-
-    @cached_property
-    def duration(self) -> float:
-        """Time of all pieces together, s."""
-        return float(self._widths.sum())
-
-    @cached_property
-    def _widths(self) -> Floats:
-        every, ones = np.arange(self.count), np.ones(self.count)
-        return np.abs(self.time(every, ones) - self.time(every, -ones))
-
-    def share(self, piece: Indices) -> Floats:
-        """Shares (n,) of that time in pieces."""
-        return self._widths[piece] / (self.duration or 1.0)
-
-    def input(self, piece: Indices, time: Floats) -> Floats:
-        """The first driver's coordinate at times, rad or m; NaN without a driver."""
-        motion = self._analysis.motion
-        if not motion.inputs:
-            return np.full(len(time), np.nan)
-        if self._ways is None:
-            return motion.input[self._numbers[piece]]
-        return np.array([self._analysis.resolver.input_at(float(each)) for each in time])
 
 
 def _basis(x: Floats) -> Floats:

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from linkwright.collisions.approaches import Approaches, Approaching, Bounds
+from linkwright.collisions.features import Meetings, Outlines, PairsOfShapes, nearest_places
+from linkwright.collisions.overlap import Overlaps
+from linkwright.collisions.relative_paths import RelativePaths
 from linkwright.core.arrays import Complexes, Flags, Floats, Indices
-from linkwright.interference.approaches import Approaches, Approaching, Bounds
-from linkwright.interference.features import Meetings, Outlines, PairsOfShapes, nearest_places
-from linkwright.interference.overlap import Overlaps
-from linkwright.interference.relative_paths import RelativePaths
 from linkwright.shapes.shape import Shape
 
 #: To which share of the machine's size gaps are found, and within which two of them are equal.

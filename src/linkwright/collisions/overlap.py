@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from linkwright.collisions.features import PairsOfShapes, spread
+from linkwright.collisions.relative_paths import RelativePaths
 from linkwright.core.arrays import Complexes, Flags, Floats, Indices
-from linkwright.interference.features import PairsOfShapes, spread
-from linkwright.interference.relative_paths import RelativePaths
 from linkwright.shapes.shape import Shape
 
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from linkwright.collisions.columns import Columns
 from linkwright.core.arrays import Complexes, Floats, Indices
-from linkwright.interference.columns import Columns
 from linkwright.shapes.shape import Piece, Shape
 
 #: Corners, or sides, that are taken together where shapes have many, and the number of pairs from which they are.

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import linkwright as lw
-from linkwright.interference.gaps import Gap, Moving, smallest_gaps
+from linkwright.collisions.gaps import Gap, Moving, smallest_gaps
 from linkwright.shapes.shape import bar, disc, polygon, rectangle
 
 FOUR_BAR = """

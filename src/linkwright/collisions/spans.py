@@ -6,15 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from linkwright.core.arrays import Flags, Floats, Indices, runs
-from linkwright.interference.approaches import Approaches
-from linkwright.interference.columns import Columns
-from linkwright.interference.search import Search
+from linkwright.collisions.approaches import Approaches
+from linkwright.collisions.columns import Columns
+from linkwright.collisions.cycle_pieces import Span
+from linkwright.collisions.search import Search
+from linkwright.core.arrays import Flags, Floats, Indices
 
 #: To which share of the cycle ends are found.
 SHORT = 1e-9
-
-Span = tuple[float, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +61,9 @@ class Spans:
         always = bounds.farthest - radius < self._clearance
         below = np.bincount(owner[always], minlength=count) > 0
         unknown = (np.bincount(owner[near], minlength=count) > 0) & ~below
-        short = unknown & (search.paths.share(intervals.piece) * (intervals.high - intervals.low) <= 2.0 * SHORT)
+        short = unknown & (
+            search.paths.pieces.share(intervals.piece) * (intervals.high - intervals.low) <= 2.0 * SHORT
+        )
         ends = np.minimum(bounds.first, bounds.last) - radius < self._clearance
         below |= short & (np.bincount(owner[ends], minlength=count) > 0)
         unknown &= ~short
@@ -92,29 +93,9 @@ class Spans:
         """The spans of every pair, s, one after the other."""
         if not self._below:
             return []
-        below, paths = _Intervals.joined(self._below), self._search.paths
-        return (
-            [self._joined(below.taken(below.pair == pair)) for pair in self._pairs]
-            if paths.exact
-            else [self._of_positions(below.piece[below.pair == pair]) for pair in self._pairs]
-        )
-
-    def _joined(self, below: _Intervals) -> tuple[Span, ...]:
-        """Intervals joined where they follow each other."""
-        paths = self._search.paths
-        begin, end = paths.time(below.piece, below.low), paths.time(below.piece, below.high)
-        order = np.argsort(begin, kind="stable")
-        begin, end = begin[order], np.maximum.accumulate(end[order])
-        gaps = np.flatnonzero(begin[1:] - end[:-1] > SHORT * paths.duration)
-        firsts, lasts = np.append(0, gaps + 1)[: len(begin)], np.append(gaps, len(begin) - 1)[: len(begin)]
-        return tuple(zip(begin[firsts].tolist(), end[lasts].tolist(), strict=True))
-
-    def _of_positions(self, number: Indices) -> tuple[Span, ...]:
-        """From the first to the last of positions that follow each other."""
-        paths = self._search.paths
-        flags = np.zeros(paths.count, dtype=np.bool_)
-        flags[number] = True
-        return tuple((float(paths.low[first]), float(paths.low[last])) for first, last in runs(flags))
+        every, pieces = _Intervals.joined(self._below), self._search.paths.pieces
+        own = (every.taken(every.pair == pair) for pair in self._pairs)
+        return [pieces.spans(below.piece, below.low, below.high, SHORT) for below in own]
 
 
 def _middle(intervals: _Intervals) -> Floats:
