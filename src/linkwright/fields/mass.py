@@ -22,8 +22,11 @@ class Mass(Quantity):
     minimum: float | None = field(default=0.0, kw_only=True)
 
     def read(self, reader: Reader, node: Node, place: Place, siblings: Mapping[str, Any]) -> Any:
-        if isinstance(node, Scalar) and " ".join(node.text.replace("_", " ").split()) == FROM_SHAPE:
+        text = " ".join(node.text.replace("_", " ").split()) if isinstance(node, Scalar) else ""
+        if text == FROM_SHAPE:
             return FROM_SHAPE
+        if text.partition(" ")[0] == "from":
+            return reader.word(node, place, (FROM_SHAPE,))
         return super().read(reader, node, place, siblings)
 
     def shape(self) -> Schema:

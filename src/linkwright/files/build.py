@@ -56,6 +56,15 @@ class Model:
         """Points of the frame, (x, y) in m."""
         self._data.setdefault("frame", {"points": {}})["points"].update(points)
 
+    def frame_shape(self, shape: str | Mapping[str, Any]) -> None:
+        """The shape of the frame's plate: a word, or the keys of a file."""
+        self._data.setdefault("frame", {"points": {}})["shape"] = shape
+
+    def construction(self, **keys: Any) -> None:
+        """How the machine is made, by the keys of a file: ``width``, ``thickness``, ``pin_radius`` (m), ``material``
+        (a name, or density, strength and modulus), ``layers`` by plate, …"""
+        self._data["construction"] = _present(**keys)
+
     def link(
         self,
         name: str,
@@ -69,12 +78,13 @@ class Model:
         inertia: Value | None = None,
         mass_centre: Pair | str | None = None,
         colour: str | None = None,
+        shape: str | Mapping[str, Any] | None = None,
     ) -> None:
-        """A moving link; the keys are those of a file: m, rad, kg, kg·m². ``mass_centre``: (x, y) or a point;
-        ``colour``: a name or #rrggbb."""
+        """A moving link; the keys are those of a file: m, rad, kg, kg·m². ``mass``: also ``"from shape"``;
+        ``mass_centre``: (x, y) or a point; ``colour``: a name or #rrggbb; ``shape``: a word or a table."""
         listed = points if isinstance(points, Mapping) else one_or_more(points)
         sizes = _present(length=length, lengths=lengths, angle=angle, also=also)
-        masses = _present(mass=mass, inertia=inertia, mass_centre=mass_centre, colour=colour)
+        masses = _present(mass=mass, inertia=inertia, mass_centre=mass_centre, colour=colour, shape=shape)
         self._section("links", name, {"points": listed, **sizes, **masses})
 
     def joint(self, name: str, kind: str, **fields: Any) -> None:

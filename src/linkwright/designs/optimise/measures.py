@@ -22,6 +22,7 @@ from linkwright.designs.cluster import current, in_turn
 from linkwright.designs.criteria import criterion
 from linkwright.designs.metrics_of_designs import side_by_side
 from linkwright.designs.named_numbers import expression_of
+from linkwright.designs.optimise.dimensions import HeldDimensions
 from linkwright.designs.optimise.paths import PathErrors
 from linkwright.designs.optimise.problem import Problem
 from linkwright.designs.varied_dimensions import refuse_moved_positions
@@ -145,7 +146,7 @@ class Measures:
         """Values (designs,) of every text, by columns (designs,) of addresses; NaN where a design does not move."""
         count = len(next(iter(columns.values())))
         self.evaluations += count
-        found = self._found(columns, count) | self._held(columns, count) | self.paths.values(columns)
+        found = self._found(columns, count) | self._held.values(columns) | self.paths.values(columns)
         values = {text: self._combined(text, found) for text in self.expressions}
         return self._where_they_pass(values, columns)
 
@@ -206,12 +207,12 @@ class Measures:
         """The output whose travel counts, and δ."""
         return Asked(usual_output(self.mechanism), self.problem.fluctuation)
 
-    def _held(self, columns: Mapping[str, Floats], count: int) -> dict[str, Floats]:
+    @cached_property
+    def _held(self) -> HeldDimensions:
         """Dimensions that stand in expressions."""
-        names = {
-            name for _unused, each in self.expressions.values() for name in each.values() if name in self._dimensions
-        }
-        return {name: columns.get(name, np.full(count, self._dimensions[name])) for name in names}
+        names = (name for _unused, each in self.expressions.values() for name in each.values())
+        own = dict.fromkeys(name for name in names if name in self._dimensions)
+        return HeldDimensions(self.mechanism, self.problem.addresses, [*own])
 
     def _combined(self, text: str, found: Mapping[str, Floats]) -> Floats:
         expression, names = self.expressions[text]
@@ -227,9 +228,7 @@ class Measures:
         """Values (designs,) of every text and gradients (designs, k) by the addresses ``by``, from columns."""
         count = len(next(iter(columns.values())))
         self.evaluations += count
-        found, slopes = dict(self._held(columns, count)), {}
-        for name in found:
-            slopes[name] = np.tile([1.0 if address == name else 0.0 for address in by], (count, 1))
+        found, slopes = self._held.values(columns), self._held.slopes(columns, by)
         for name in self.paths.parts:
             found[name], slopes[name] = self.paths.with_slopes(name, columns, by)
         for cycle in self.cycles:
