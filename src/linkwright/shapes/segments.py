@@ -128,14 +128,12 @@ def tours(piece: Piece, near: float) -> Iterator[list[Segment]]:
         corners = _distinct(ring.tolist(), near)
         if piece.filled and len(corners) > 1 and abs(corners[-1] - corners[0]) <= near:
             corners.pop()
-        if len(corners) == 1 and piece.radius:
-            yield around([corners[0]], piece.radius)
-        elif len(corners) > 1 and not piece.filled and piece.radius:
-            yield around([*corners, *reversed(corners[1:-1])], piece.radius)
-        elif len(corners) > 2 and piece.filled:
+        if piece.filled and len(corners) > 2:
             yield around(corners, piece.radius)
             if piece.radius:
                 yield around(corners[::-1], piece.radius)
+        elif piece.radius:
+            yield around([*corners, *reversed(corners[1:-1])], piece.radius)
 
 
 def around(corners: Sequence[complex], radius: float) -> list[Segment]:

@@ -18,9 +18,13 @@ def polygon_of(piece: Piece, quarter: int = 64) -> BaseGeometry:
         core = shapely.Polygon(rings[0])
         for ring in rings[1:]:
             core = core.symmetric_difference(shapely.Polygon(ring))
-    else:
-        core = shapely.Point(rings[0][0]) if len(rings[0]) == 1 else shapely.LineString(rings[0])
-    return core.buffer(piece.radius, quad_segs=quarter) if piece.radius else core
+        return core.buffer(piece.radius, quad_segs=quarter) if piece.radius else core
+    # side by side: the buffer of a line that folds back on itself lacks parts
+    sides = [
+        shapely.LineString([(a.real, a.imag), (b.real, b.imag)]) if a != b else shapely.Point(a.real, a.imag)
+        for a, b in piece.sides
+    ]
+    return shapely.union_all([each.buffer(piece.radius, quad_segs=quarter) for each in sides])
 
 
 def union_of(shape: Shape, quarter: int = 64) -> BaseGeometry:

@@ -35,6 +35,14 @@ def test_unions_of_random_pieces_are_those_of_shapely(seed: int) -> None:
     assert outer == sorted(outer, reverse=True)
 
 
+@pytest.mark.long
+def test_areas_of_many_random_unions() -> None:
+    for seed in range(1000, 3000):
+        shape = random_shape(np.random.default_rng(seed))
+        expected = union_of(shape, 100)
+        assert area_of(shape) == pytest.approx(expected.area, abs=6e-5 * (1.0 + expected.length)), seed
+
+
 def test_a_bar_has_two_lines_and_two_half_arcs() -> None:
     (loop,) = boundary(bar([0j, 0.3 + 0.4j], 0.2))
     assert sorted(edge.bulge for edge in loop.edges) == pytest.approx([0.0, 0.0, 1.0, 1.0])
@@ -62,6 +70,26 @@ def test_a_plate_has_an_arc_at_every_corner() -> None:
     assert loop.area == pytest.approx(0.45 + girth * 0.1 + math.pi * 0.01, rel=1e-14)
     assert loop.length == pytest.approx(girth + 2.0 * math.pi * 0.1, rel=1e-14)
     assert [bool(edge.bulge) for edge in loop.edges] == [False, True] * 3
+
+
+@pytest.mark.parametrize(
+    "corners", [[0j], [0j, 0j, 0j], [0j, 1 + 0j], [0j, 1 + 0j, 0.5 + 0j], [0j, 0j, 1 + 0j, 1 + 0j]]
+)
+def test_a_plate_of_points_in_line_is_a_bar(corners: list[complex]) -> None:
+    places = np.array(corners)
+    length = float(np.ptp(places.real))
+    (loop,) = boundary(Shape((Piece((places,), 0.1, filled=True),)))
+    assert loop.area == pytest.approx(0.2 * length + math.pi * 0.01)
+
+
+def test_the_middle_of_a_pentagram_is_open_by_the_even_odd_rule() -> None:
+    star = np.exp(0.8j * np.pi * np.arange(5) + 0.5j * np.pi)
+    loops = boundary(polygon(star))
+    # tips of a pentagram in the unit circle: triangles on the sides of the inner pentagon
+    inner = 1.0 / ((1.0 + math.sqrt(5.0)) / 2.0) ** 2
+    side = 2.0 * inner * math.sin(math.pi / 5.0)
+    tips = 5.0 * 0.5 * side * (1.0 - inner * math.cos(math.pi / 5.0))
+    assert sum(loop.area for loop in loops) == pytest.approx(tips)
 
 
 def test_a_ring_of_bars_has_an_opening() -> None:
