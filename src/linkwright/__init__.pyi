@@ -111,6 +111,9 @@ from .laws.program import MotionProgram as MotionProgram
 from .laws.program import Segment as Segment
 from .laws.smoothest import FoundProgram as FoundProgram
 from .laws.smoothest import Window as Window
+from .layering.arrangement import Conflict as Conflict
+from .layering.arrangement import Layers as Layers
+from .layering.layers_of import layers as layers
 from .machine.balancing import Balancing as Balancing
 from .machine.balancing import balance as balance
 from .machine.running import SteadyRunning as SteadyRunning

@@ -32,6 +32,7 @@ ASKED: dict[str, list[str]] = {
         '<Link id="2"><connector id="2"/><connector id="3"/></Link></linkage2>'
     ],
     "interference": ["gallery:kite"],
+    "layers": ["gallery:kite"],
     "machine": ["gallery:jaw_crusher_fourbar"],
     "metrics": ["gallery:kite"],
     "optimize": [

@@ -94,8 +94,9 @@ class Ends:
         """Differences without a choice."""
         problem = self.problem
         cover = self._groups[problem.leader[problem.cover]] if problem.cover else 0
+        at_base = {self.plates[plate] for plate, layer in problem.fixed.items() if layer == 0}
         for number in range(1, len(self._groups)):
-            yield 0, number, 1
+            yield 0, number, 0 if number in at_base else 1
             if cover and number != cover:
                 yield number, cover, 1
         for plate, layer in problem.fixed.items():

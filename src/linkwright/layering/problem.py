@@ -49,8 +49,8 @@ class Problem:
 
     ``bodies``: the plates from the lowest to the highest of which each body reaches, by the body's name; a plate is
     the body that has itself alone. ``base``: the plate in layer 0, ``cover``: that in the highest layer; all others
-    are above the one and below the other. Empty where there is none. Heads are in the layer below a body's lowest
-    plate and in that above its highest, but not below the base nor above the cover.
+    are above the one, unless fixed in layer 0, and below the other. Empty where there is none. Heads are in the layer
+    below a body's lowest plate and in that above its highest, but not below the base nor above the cover.
     """
 
     bodies: Mapping[str, tuple[str, ...]]

@@ -94,6 +94,9 @@ class Program:
             if plate:
                 allowed[self.groups[leader[plate]]] = np.arange(self.size) == end
         for plate, layer in problem.fixed.items():
+            if layer == 0:
+                allowed[self.groups[leader[plate]], 0] = 1.0
+        for plate, layer in problem.fixed.items():
             if layer is not None:
                 allowed[self.groups[leader[plate]]] *= np.arange(self.size) == layer
         return allowed.ravel()
