@@ -6,6 +6,7 @@ from bisect import bisect_left
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
+from math import floor, log10
 from time import monotonic
 
 from linkwright.core.quantity import length_text
@@ -75,7 +76,7 @@ def _thinner(demands: Demands, first: str, second: str) -> Iterator[Change]:
             "make the radii of {first} and {second} together less than {distance}",
             first=first,
             second=second,
-            distance=length_text(distance, 3),
+            distance=_rounded_down(distance),
         )
         yield Change(text, _without_pair(frozenset((first, second))))
 
@@ -85,7 +86,7 @@ def _clear_of(demands: Demands, plate: str, other: str) -> Change:
     width = demands.clear_width(plate, other)
     names = {"plate": plate, "other": other}
     if width > 0.0:
-        text = _("make {plate} less than {width} wide, clear of {other}", width=length_text(width, 3), **names)
+        text = _("make {plate} less than {width} wide, clear of {other}", width=_rounded_down(width), **names)
     elif demands.solids.by_name[plate].sort == "link":
         text = _(
             "keep {plate} clear of {other} by a bent bar or other dimensions (less width is not enough)", **names
@@ -93,6 +94,12 @@ def _clear_of(demands: Demands, plate: str, other: str) -> Change:
     else:
         text = _("keep {plate} clear of {other} by other dimensions", **names)
     return Change(text, _without_pair(frozenset((plate, other))))
+
+
+def _rounded_down(length: float) -> str:
+    """A length with three digits, no longer than it is."""
+    digit = 10.0 ** (floor(log10(length)) - 2)
+    return length_text(floor(length / digit * (1.0 + 1e-12)) * digit, 3)
 
 
 def _smaller_clearance(problem: Problem) -> Iterator[Change]:
@@ -110,7 +117,7 @@ def _smaller_clearance(problem: Problem) -> Iterator[Change]:
         return
     if place < len(sizes):
         size = sizes[place]
-        yield Change(_("allow a clearance of {size}", size=length_text(size)), _with_clearance(size))
+        yield Change(_("allow a clearance of {size}", size=_rounded_down(size)), _with_clearance(size))
 
 
 def _with_clearance(size: float) -> Callable[[Problem], Problem]:

@@ -12,7 +12,7 @@ from linkwright.layering.search import arrange
 MOST = 4
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", range(12))
 def test_as_all_assignments_tried(seed: int) -> None:
     problem = random_problem(Random(seed))
     found, expected = arrange(problem), best(problem, MOST)
