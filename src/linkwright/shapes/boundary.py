@@ -12,6 +12,7 @@ from linkwright.errors import RequestError, SelfCheckError
 from linkwright.shapes.chains import closed_loops
 from linkwright.shapes.distance import contains
 from linkwright.shapes.loop import Loop, circle
+from linkwright.shapes.rings import bent, clear_of_each_other, loops_of, overlapping
 from linkwright.shapes.segments import PARALLEL, Segment, around, meeting, tours
 from linkwright.shapes.shape import Shape
 from linkwright.words import _
@@ -29,7 +30,7 @@ _OUTSIDE = _(
     code="shapes.bore_outside",
 )
 _OVERLAP = _(
-    "the hole of {diameter} mm in diameter at ({x}, {y}) mm overlaps another one; make the pins thinner",
+    "the holes at ({x}, {y}) mm and ({u}, {v}) mm overlap; make the pins thinner, or set them farther apart",
     code="shapes.bores_overlap",
 )
 
@@ -49,10 +50,16 @@ def boundary(shape: Shape) -> tuple[Loop, ...]:
 
 
 def _single(shape: Shape, near: float) -> list[Loop]:
-    """The outline of one disc, one straight bar or one convex plate; empty for anything else."""
-    if len(shape.pieces) != 1 or len(shape.pieces[0].rings) != 1:
+    """The outline of one disc, one straight bar, one convex plate or one polygon; empty for anything else."""
+    if len(shape.pieces) != 1:
         return []
     piece = shape.pieces[0]
+    if piece.filled and not piece.radius:
+        rings = [bent(ring, near) for ring in piece.rings]
+        plain = min(map(len, rings)) > 2 and clear_of_each_other(rings, near)
+        return loops_of(rings) if plain else []
+    if len(piece.rings) != 1:
+        return []
     corners = piece.rings[0].tolist()
     if piece.filled:
         if not _convex(piece.rings[0], near):
@@ -150,21 +157,12 @@ def _cuts(segments: Sequence[Segment], near: float) -> list[list[tuple[float, co
     return found
 
 
-def _neighbours(segments: Sequence[Segment], near: float) -> list[tuple[int, int]]:
+def _neighbours(segments: Sequence[Segment], near: float) -> list[list[int]]:
     """Pairs of segments whose boxes overlap, in order."""
     boxes = np.array([segment.edge.box for segment in segments])
-    left, below = boxes[:, 0].real - near, boxes[:, 0].imag - near
-    right, above = boxes[:, 1].real + near, boxes[:, 1].imag + near
-    order = np.argsort(left, kind="stable")
-    # of all that begin further right those overlap in x that begin before a box ends
-    ends = np.searchsorted(left[order], right[order], side="right")
-    counts = ends - np.arange(len(order)) - 1
-    one = np.repeat(np.arange(len(order)), counts)
-    other = one + 1 + np.arange(len(one)) - np.repeat(np.cumsum(counts) - counts, counts)
-    first, second = order[one], order[other]
-    both = (below[first] <= above[second]) & (below[second] <= above[first])
-    pairs = np.sort(np.stack([first[both], second[both]], axis=1), axis=1)
-    return sorted(map(tuple, pairs.tolist()))
+    corner = near * (1 + 1j)
+    pairs = np.stack(overlapping(boxes[:, 0] - corner, boxes[:, 1] + corner), axis=1)
+    return sorted(np.sort(pairs, axis=1).tolist())
 
 
 def _kept(runs: Sequence[list[Segment]], shape: Shape, aside: float) -> list[Segment]:
@@ -190,10 +188,15 @@ def _bored(shape: Shape, loops: Sequence[Loop], near: float) -> Iterator[Loop]:
         if any(abs(centre - other) <= bigger - radius + near for other, bigger in kept):
             continue
         edge = min(each.distance(centre) for loop in loops for each in loop.edges)
-        about = {"diameter": f"{2e3 * radius:.6g}", "x": f"{1e3 * centre.real:.6g}", "y": f"{1e3 * centre.imag:.6g}"}
         if edge < radius - near or not contains(shape, np.array([centre]))[0]:
-            raise RequestError(_OUTSIDE.format(**about))
-        if any(abs(centre - other) < bigger + radius - near for other, bigger in kept):
-            raise RequestError(_OVERLAP.format(**about))
+            raise RequestError(_OUTSIDE.format(diameter=f"{2e3 * radius:.6g}", **_millimetres(centre)))
+        for other, bigger in kept:
+            if abs(centre - other) < bigger + radius - near:
+                raise RequestError(_OVERLAP.format(**_millimetres(other), **_millimetres(centre, "uv")))
         kept.append((centre, radius))
         yield circle(centre, radius, clockwise=True)
+
+
+def _millimetres(place: complex, names: str = "xy") -> dict[str, str]:
+    """A place as values of a text."""
+    return {name: f"{1e3 * value:.6g}" for name, value in zip(names, (place.real, place.imag), strict=True)}

@@ -8,7 +8,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+
+from linkwright.core.plane import area
 from linkwright.shapes.loop import Edge
+from linkwright.shapes.rings import clear_of_each_other
 from linkwright.shapes.shape import Piece
 
 #: Turn (rad) below which two directions are one.
@@ -129,9 +133,12 @@ def tours(piece: Piece, near: float) -> Iterator[list[Segment]]:
         if piece.filled and len(corners) > 1 and abs(corners[-1] - corners[0]) <= near:
             corners.pop()
         if piece.filled and len(corners) > 2:
-            yield around(corners, piece.radius)
-            if piece.radius:
-                yield around(corners[::-1], piece.radius)
+            ring = np.array(corners)
+            ways = [corners, corners[::-1]]
+            if len(piece.rings) == 1 and piece.radius and clear_of_each_other([ring], near):
+                # only the outer side of a ring that does not cross itself
+                ways = ways[:1] if area(np.append(ring, ring[0])) > 0.0 else ways[1:]
+            yield from (around(way, piece.radius) for way in (ways if piece.radius else ways[:1]))
         elif piece.radius:
             yield around([*corners, *reversed(corners[1:-1])], piece.radius)
 

@@ -159,7 +159,7 @@ def test_a_hole_through_the_edge_is_refused(hole: tuple[complex, float], code: s
 
 
 def test_holes_that_overlap_are_refused() -> None:
-    with pytest.raises(RequestError, match="overlaps another one") as refused:
+    with pytest.raises(RequestError, match=r"the holes at \(0, 0\) mm and \(80, 0\) mm overlap") as refused:
         boundary(Shape(bar([0j, 1 + 0j], 0.2).pieces, ((0j, 0.05), (0.08 + 0j, 0.05))))
     assert refused.value.code == "shapes.bores_overlap"
 
@@ -186,3 +186,19 @@ def test_a_moved_outline_keeps_its_form() -> None:
     assert moved.reversed.area == pytest.approx(-loop.area)
     low, high = loop.box
     assert moved.box[0] == pytest.approx(complex(2.0 - high.imag, low.real))
+
+
+def test_a_wheel_of_many_corners_is_followed_corner_by_corner() -> None:
+    turns = np.linspace(0.0, 2.0 * np.pi, 2000, endpoint=False)
+    wheel = np.exp(1j * turns) * (1.0 + 0.05 * np.sin(30.0 * turns))
+    outer, inner = boundary(polygon(wheel, [0.5 * wheel]))
+    assert (len(outer.edges), len(inner.edges)) == (2000, 2000)
+    z = np.append(wheel, wheel[0])
+    assert outer.area == pytest.approx(0.5 * float((z[:-1].conj() * z[1:]).imag.sum()))
+    assert inner.area == pytest.approx(-0.25 * outer.area)
+
+
+def test_islands_in_openings_are_material_again() -> None:
+    square = np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j])
+    loops = boundary(polygon(square, [0.8 * square, 0.5 * square[::-1]]))
+    assert [loop.area for loop in loops] == pytest.approx([4.0, 1.0, -2.56])
