@@ -9,8 +9,9 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence, below
 from linkwright.fields.shape_of_link import LinkShape
 from linkwright.files.reader import Reader
+from linkwright.joints.lower_pair import SlidingJoint
 from linkwright.mechanism.mechanism import Mechanism
-from linkwright.words import _
+from linkwright.words import Message, _
 
 
 def shape_points_known(reader: Reader, node: Node, link: str, shape: LinkShape | None) -> bool:
@@ -47,6 +48,33 @@ def weighed(reader: Reader, root: MappingNode, mechanism: Mechanism) -> Mechanis
     return replace(mechanism, links=links)
 
 
+def _other_plate(mechanism: Mechanism, name: str) -> Message | None:
+    """Why a link's plate is not the one that its points and its width give; None where it is."""
+    link = mechanism.links[name]
+    if link.shape is not None and link.shape.kind == "outline":
+        return None
+    for joint in mechanism.joints.values():
+        guided = isinstance(joint, SlidingJoint) and (
+            joint.guide == name or (joint.block == name and len(link.points) == 1 and link.shape is None)
+        )
+        if guided:
+            return _(
+                "the plate of {link} depends on the stroke and the size of the guide {joint}, so that it cannot be "
+                "weighed here",
+                code="shapes.guide_weighs",
+                link=name,
+                joint=joint.name,
+            )
+        if joint.higher and name in joint.joined and link.shape is None:
+            return _(
+                "the wheel or cam of {link} in the pair {joint} is not part of the shape of its points",
+                code="shapes.wheel_weighs",
+                link=name,
+                joint=joint.name,
+            )
+    return None
+
+
 def _can_be_weighed(reader: Reader, root: MappingNode, mechanism: Mechanism, name: str) -> bool:
     """Whether the file gives all that a mass follows from, and nothing that contradicts it."""
     from linkwright.mechanism.mass_from_shape import sizes
@@ -64,6 +92,10 @@ def _can_be_weighed(reader: Reader, root: MappingNode, mechanism: Mechanism, nam
     if shape is not None and shape.kind == "none":
         problem = _("a link of shape: none has no mass from its shape", code="shapes.none_weighs")
         reader.error(node, f"{key}.mass", problem, _("give its mass as a number, or another shape"), "choice")
+        return False
+    elsewhere = _other_plate(mechanism, name)
+    if elsewhere is not None:
+        reader.error(node, f"{key}.mass", elsewhere, _("give its mass as a number, or its outline"), "choice")
         return False
     missing = sizes(mechanism, name).missing
     if missing and (construction := below(root, "construction")) is not None and mechanism.construction is None:

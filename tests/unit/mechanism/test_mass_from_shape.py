@@ -178,6 +178,35 @@ def test_every_mistake_has_its_finding(model: str, code: str, key: str) -> None:
     said(findings(model), code, key)
 
 
+SLIDER = """
+format: 1
+name: slider-crank
+frame: {points: {O: [0 m, 0 m]}}
+links:
+  crank: {points: [O, A], length: 100 mm, ON_CRANK}
+  rod: {points: [A, B], length: 300 mm, ON_ROD}
+  slider: {points: [B], ON_SLIDER}
+joints:
+  guide: {kind: prismatic, guide: frame, through: O, direction: 0 deg, block: slider, at: B}
+assembly: {B: forward}
+driver: {turn: crank, about: O, speed: 60 rpm}
+construction: {width: 40 mm, thickness: 6 mm, pin_radius: 5 mm}
+"""
+
+
+@pytest.mark.parametrize(
+    ("on", "shape", "fits"), [("SLIDER", "", False), ("SLIDER", ", shape: {radius: 30 mm}", True), ("ROD", "", True)]
+)
+def test_a_block_without_a_shape_is_not_weighed(on: str, shape: str, fits: bool) -> None:
+    model = SLIDER.replace(f"ON_{on}", f"mass: from shape{shape}")
+    for other in ("CRANK", "ROD", "SLIDER"):
+        model = model.replace(f", ON_{other}", "")
+    if fits:
+        assert lw.loads(model).links[on.lower()].mass > 0.0
+    else:
+        said(findings(model), "choice", "links.slider.mass", link="slider", joint="guide")
+
+
 def test_what_is_missing_is_named() -> None:
     found = said(findings(text(made="kerf: 0.1 mm")), "missing-key", "links.crank.mass")
     assert "there is no width, thickness, pin_radius" in str(found)

@@ -7,4 +7,4 @@ export const MACHINES: Record<string, [style: string, d: string][]> = {
   shaper_quick_return: [["support", "M52.0 25.5L48.0 32.5H56.0ZM45.5 32.5H58.5"], ["support", "M52.0 65.0L48.0 72.0H56.0ZM45.5 72.0H58.5"], ["bar", "M52.0 25.5L55.0 14.5"], ["bar", "M52.0 65.0L55.3 9.0"], ["bar", "M55.3 9.0L69.3 10.1"], ["block", "M51.0 11.5H59.0V17.5H51.0Z"], ["ground", "M40.8 14.6L91.2 14.6"], ["block", "M63.3 6.6L75.3 6.6L75.3 13.6L63.3 13.6Z"], ["pin", "M49.8 25.5a2.2 2.2 0 1 0 4.4 0a2.2 2.2 0 1 0 -4.4 0Z"], ["pin", "M52.8 14.5a2.2 2.2 0 1 0 4.4 0a2.2 2.2 0 1 0 -4.4 0Z"], ["pin", "M49.8 65.0a2.2 2.2 0 1 0 4.4 0a2.2 2.2 0 1 0 -4.4 0Z"], ["pin", "M53.1 9.0a2.2 2.2 0 1 0 4.4 0a2.2 2.2 0 1 0 -4.4 0Z"], ["pin", "M67.1 10.1a2.2 2.2 0 1 0 4.4 0a2.2 2.2 0 1 0 -4.4 0Z"]],
 };
 /** How many machines the gallery has. */
-export const GALLERY = 59;
+export const GALLERY = 60;
