@@ -1,6 +1,7 @@
 """Makes the pictures of this folder: ``python docs/pictures/make.py``."""
 
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import linkwright as lw
@@ -45,10 +46,19 @@ def symbols(columns: int = 5, wide: float = 150.0, high: float = 120.0) -> str:
     return document(content, box, "Symbols", None)
 
 
+def sheet(model: str, size: tuple[float, float]) -> None:
+    """Writes the first sheet with the plates of a machine, its size in m."""
+    with TemporaryDirectory() as folder:
+        files = lw.cut_parts(lw.load(f"gallery:{model}")).save(folder, ["svg"], sheet=size)
+        first = next(each for each in files if each.name.startswith("sheet-1"))
+        (HERE / f"{model}_sheet.svg").write_bytes(first.read_bytes())
+
+
 def main() -> None:
     """Writes every picture."""
     (HERE / "symbols.svg").write_text(symbols(), encoding="utf-8")
     lw.gear_pair((12, 24), 3e-3, profile_shift=(0.6, 0.36)).draw(0.1).save(HERE / "gear_pair.svg", force=True)
+    sheet("theo_jansen_leg", (0.12, 0.1))
     for name, (model, options) in STILL.items():
         draw(lw.load(f"gallery:{model}"), **options).save(HERE / f"{name}.svg", force=True)
     for name, (model, options) in MOVING.items():

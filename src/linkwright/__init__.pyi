@@ -82,6 +82,8 @@ from .exporters.mjcf.closure import MujocoLoops as MujocoLoops
 from .exporters.mjcf.closure import mujoco_loops as mujoco_loops
 from .exporters.sweep_parts import SweepParts as SweepParts
 from .exporters.sweep_parts import sweep_parts as sweep_parts
+from .fabrication.cut_parts import CutParts as CutParts
+from .fabrication.cut_parts import cut_parts as cut_parts
 from .file_check import check as check
 from .files.build import Model as Model
 from .files.model_file import gallery_names as gallery_names

@@ -31,6 +31,7 @@ ASKED: dict[str, list[str]] = {
         '<Link id="1"><connector id="1"/><connector id="2"/></Link>'
         '<Link id="2"><connector id="2"/><connector id="3"/></Link></linkage2>'
     ],
+    "cut": ["gallery:kite"],
     "interference": ["gallery:kite"],
     "layers": ["gallery:kite"],
     "machine": ["gallery:jaw_crusher_fourbar"],

@@ -120,6 +120,7 @@ RESULTS: dict[str, Callable[[], Any]] = {
     ),
     "expectations": lambda: lw.expectations(dataclasses.replace(CRUSHER(), expect={"mobility": 1})),
     "expectation": lambda: made("expectations").rows[0],
+    "parts to make": lambda: lw.cut_parts(store.machine("kite")),
     "layers": lambda: lw.layers(lw.load("gallery:crank_rocker")),
     "conflict": lambda: lw.layers(lw.load("gallery:crank_rocker"), supports="both").conflicts[0],
     "loops in MuJoCo": lambda: lw.mujoco_loops(lw.load("gallery:kite"), steps=24),

@@ -14,6 +14,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.fabrication.holes import Pose
 from linkwright.fabrication.part import Part
 from linkwright.fabrication.plates import Plates
+from linkwright.fabrication.room import Room
 from linkwright.fabrication.turned import Turned
 from linkwright.layering.arrangement import Layers
 from linkwright.layering.layers_of import layers
@@ -54,7 +55,7 @@ class CutParts(Tabular):
     def save(
         self,
         folder: str | Path,
-        forms: Sequence[str] = (),
+        forms: Sequence[str] = ("dxf", "svg"),
         language: str = "en",
         *,
         kerf: float | None = None,
@@ -82,19 +83,17 @@ def cut_parts(mechanism: Mechanism) -> CutParts:
 def parts_in(found: Layers) -> CutParts:
     """The parts of a machine in layers; raises LinkwrightError where these conflict."""
     if found.conflicts:
-        first = found.conflicts[0]
         raise LinkwrightError(
             _(
-                "{first} and {second} collide in any layers, so there are no parts to make; see linkwright layers",
+                "there are no layers in which nothing collides, so there are no parts to make: {conflicts}; see "
+                "linkwright layers",
                 code="cut.no_layers",
-                first=first.first,
-                second=first.second,
+                conflicts=tuple(each.sentence for each in found.conflicts),
             )
         )
-    construction = found.mechanism.construction
-    material = MATERIALS["steel"] if construction is None else construction.material
+    construction, steel = found.mechanism.construction, MATERIALS["steel"]
     fit, washer = (0.0, 0.0) if construction is None else (construction.fit, construction.washer or 0.0)
     pose = Pose.of(found)
-    turned = Turned(found, pose, material.name, material.density, fit, washer)
+    turned = Turned(found, pose, Room(found, pose), steel.name, steel.density, fit, washer)
     parts = (*Plates(found, pose).parts(), *turned.pins(), *turned.rings())
-    return CutParts(found.mechanism, found, parts, found.solids.notes)
+    return CutParts(found.mechanism, found, parts, (*turned.notes, *found.solids.notes))

@@ -82,6 +82,7 @@ def engravings(part: Part) -> tuple[Engraving, ...]:
             for way, turn in _around(part, hole.centre)
             for reach in [_reach(_short(hole.pin), height, way, turn)]
         )
+        places = (each for each in places if _is_nearest(part, hole, each))
         if not _put(plate, places):
             plate.found.append(_within(hole))
     size = min((2.0 * radius for _centre, radius in part.shape.holes), default=0.25 * part.shape.bound[1])
@@ -101,6 +102,17 @@ def _within(hole: Hole) -> Engraving:
     """The name of a pin on what falls out of its hole."""
     text = Engraving(_short(hole.pin), hole.centre, hole.radius)
     return Engraving(text.text, text.at, text.height * min(1.0, 1.6 * hole.radius / text.width))
+
+
+def _is_nearest(part: Part, hole: Hole, text: Engraving) -> bool:
+    """Whether the edge of no other hole is as near to the middle of a text as that of its own."""
+    others = (each for each in part.holes if each is not hole)
+    return all(_edge(each, text) > 1.2 * _edge(hole, text) for each in others)
+
+
+def _edge(hole: Hole, text: Engraving) -> float:
+    """From the edge of a hole to the middle of a text, m."""
+    return abs(abs(hole.centre - text.at) - hole.radius)
 
 
 def _short(pin: str) -> str:

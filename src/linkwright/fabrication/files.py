@@ -66,14 +66,12 @@ def files_of(
         kerf = 0.0 if construction is None else construction.kerf
     plates = [each for each in found.parts if each.sort == "plate"]
     lines = {each.name: cut_lines(each, kerf) for each in plates}
-    sheets = sheets_of(found, lines, sheet)
-    names = file_names(lines)
+    sheets = sheets_of(found, lines, sheet, kerf)
+    names = file_names(lines, taken=(each.name for each in sheets))
     contents: dict[str, bytes] = {}
     for form in forms:
         contents |= {f"{names[name]}.{form}": _drawn(form, [each], name) for name, each in lines.items()}
-        for number, each in enumerate(sheets, 1):
-            title = f"{found.mechanism.name}: {each.title(language)}"
-            contents[f"sheet-{number}.{form}"] = _drawn(form, each.lines, title, each)
+        contents |= {f"{each.name}.{form}": _drawn(form, each.lines, each.name, each) for each in sheets}
     for form in _LISTS:
         contents[f"parts.{form}"] = content_of(found, form, language)
     return contents

@@ -14,18 +14,19 @@ _DEVICES = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)", re.IGNORECASE)
 _MOST = 120
 
 
-def file_names(names: Iterable[str]) -> Mapping[str, str]:
+def file_names(names: Iterable[str], taken: Iterable[str] = ()) -> Mapping[str, str]:
     """A name for the file of each part, without ending: its own as far as every file system takes it, letters of any
-    script among them; with a number where two would be the same without regard to upper and lower case."""
+    script among them; with a number where two would be the same without regard to upper and lower case, or are
+    ``taken``."""
     found: dict[str, str] = {}
-    taken: set[str] = set()
+    used = {each.casefold() for each in taken}
     for name in names:
         plain = _plain(name)
         number, own = 1, plain
-        while own.casefold() in taken:
+        while own.casefold() in used:
             number += 1
             own = f"{plain}-{number}"
-        taken.add(own.casefold())
+        used.add(own.casefold())
         found[name] = own
     return found
 

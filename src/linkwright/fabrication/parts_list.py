@@ -11,6 +11,7 @@ from linkwright.core.table import Amount, Cell, Table
 from linkwright.errors import speaker
 from linkwright.fabrication.cut_lines import box_of
 from linkwright.fabrication.part import Hole, Part, Place
+from linkwright.fields.material import LABELS
 from linkwright.words import Message, Translate, _, pgettext
 
 if TYPE_CHECKING:
@@ -18,59 +19,44 @@ if TYPE_CHECKING:
 
 #: What parts are called by the word before their own name, and those without one.
 CALLED: Mapping[str, Message] = {
-    "pin": pgettext("part", "pin {name}"),
-    "post": pgettext("part", "post {name}"),
-    "guide": pgettext("part", "guide {name}"),
-    "block": pgettext("part", "block {name}"),
-    "wheel": pgettext("part", "wheel {name}"),
-    "rack": pgettext("part", "rack {name}"),
-    "cam": pgettext("part", "cam {name}"),
-    "roller": pgettext("part", "roller {name}"),
-    "rod": pgettext("part", "rod {name}"),
-    "hub": pgettext("part", "hub {name}"),
-    "face": pgettext("part", "face {name}"),
-    "edge": pgettext("part", "edge {name}"),
-    "spacer": pgettext("part", "spacer {name}"),
-    "washer": pgettext("part", "washer {name}"),
+    "pin": pgettext("parts list", "pin {name}"),
+    "post": pgettext("parts list", "post {name}"),
+    "guide": pgettext("parts list", "guide {name}"),
+    "block": pgettext("parts list", "block {name}"),
+    "wheel": pgettext("parts list", "wheel {name}"),
+    "rack": pgettext("parts list", "rack {name}"),
+    "cam": pgettext("parts list", "cam {name}"),
+    "roller": pgettext("parts list", "roller {name}"),
+    "rod": pgettext("parts list", "rod {name}"),
+    "hub": pgettext("parts list", "hub {name}"),
+    "face": pgettext("parts list", "face {name}"),
+    "edge": pgettext("parts list", "edge {name}"),
+    "spacer": pgettext("parts list", "spacer {name}"),
+    "washer": pgettext("parts list", "washer {name}"),
 }
 ALONE: Mapping[str, Message] = {
-    "frame": pgettext("part", "base plate"),
-    "cover": pgettext("part", "cover"),
-    "spacer": pgettext("part", "spacer"),
-    "washer": pgettext("part", "washer"),
+    "frame": pgettext("parts list", "base plate"),
+    "cover": pgettext("parts list", "cover"),
+    "spacer": pgettext("parts list", "spacer"),
+    "washer": pgettext("parts list", "washer"),
 }
-#: Materials by their names in model files.
-MATERIALS: Mapping[str, Message] = {
-    "steel": pgettext("material", "steel"),
-    "stainless_steel": pgettext("material", "stainless steel"),
-    "cast_iron": pgettext("material", "cast iron"),
-    "aluminium": pgettext("material", "aluminium"),
-    "brass": pgettext("material", "brass"),
-    "bronze": pgettext("material", "bronze"),
-    "pom": pgettext("material", "POM"),
-    "abs": pgettext("material", "ABS"),
-    "pla": pgettext("material", "PLA"),
-    "acrylic": pgettext("material", "acrylic"),
-    "plywood": pgettext("material", "plywood"),
-    "mdf": pgettext("material", "MDF"),
-    "": pgettext("material", "as given"),
-}
+AS_GIVEN = pgettext("material", "as given")
 HEADS = (
     _("no."),
-    pgettext("part", "part"),
-    pgettext("part", "number"),
-    pgettext("part", "size / mm"),
+    pgettext("parts list", "part"),
+    pgettext("parts list", "number"),
+    pgettext("parts list", "size / mm"),
     _("material"),
-    pgettext("part", "layer"),
+    pgettext("parts list", "layer"),
     _("mass / {unit}"),
     _("all / {unit}"),
-    pgettext("part", "holes"),
+    pgettext("parts list", "holes"),
 )
 #: Masses below this, kg, are shown in grams.
 LIGHT = 1.0
 TITLE = _("Parts of {name}")
 PRESSED = _(
-    "A pin is pressed into its lowest plate and into all that move with that one (p); in the others it turns, and "
+    "A pin is pressed into its lowest plate and all that move with that one (p); in the others it turns, and "
     "their holes are larger by the fit, {fit}. Posts are pressed in."
 )
 HEAD = _("{pin}, head Ø{head} × {height}")
@@ -118,15 +104,15 @@ def called(parts: Sequence[Part], translate: Translate) -> str:
 def tables(found: CutParts, language: str = "en") -> tuple[Table, ...]:
     """The list of parts, and what its numbers mean."""
     translate = speaker(language)
-    light = max(each.count * each.mass for each in found.parts) < LIGHT
-    rows = [_row(line, translate, 1e3 if light else 1.0) for line in lines_of(found.parts)]
-    heads = [translate(each.format(unit="g" if light else "kg")) for each in HEADS]
+    unit, per_kg = ("g", 1e3) if max(each.count * each.mass for each in found.parts) < LIGHT else ("kg", 1.0)
+    rows = [_row(line, translate, per_kg) for line in lines_of(found.parts)]
+    heads = [translate(each.format(unit=unit)) for each in HEADS]
     title = translate(TITLE.format(name=found.mechanism.name))
     construction = found.mechanism.construction
     fit = 0.0 if construction is None else construction.fit
     count = sum(each.count for each in found.parts)
     notes = [
-        translate(TOTAL.format(count=count, mass=shown(found.mass, "mass", 4))),
+        translate(TOTAL.format(count=count, mass=f"{per_kg * found.mass:.4g} {unit}")),
         translate(PRESSED.format(fit=shown(fit, "length"))),
         *found.notes,
     ]
@@ -141,7 +127,7 @@ def _row(line: Line, translate: Translate, per_kg: float) -> list[Cell]:
         called(line.parts, translate),
         line.count,
         size_text(part, translate),
-        translate(MATERIALS[part.material]) if part.material in MATERIALS else part.material,
+        translate(LABELS.get(part.material, AS_GIVEN)),
         part.layer,
         *(Amount(each, digits=4) if part.mass else None for each in masses),
         ", ".join(holes_text(part)),

@@ -4,17 +4,27 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
+from linkwright.core.quantity import shown
 from linkwright.fabrication.holes import Pose, axis, fixed_plates, hubs_around, pin_radius
 from linkwright.fabrication.part import Part, Place, Sort
+from linkwright.fabrication.room import Room
 from linkwright.layering.arrangement import Layers
 from linkwright.shapes.shape import disc
 from linkwright.solids.solid import Solid
+from linkwright.words import Message, _
+
+_SHOULDER = _(
+    "There is no room for a spacer of {length} on {pin}: turn it with a shoulder there, or take retaining rings.",
+    code="cut.shoulder",
+)
 
 #: Radius of washers and spacers as a share of their pin's where it has no head.
 RING = 1.6
+#: The thinnest wall of a spacer, as a share of its pin's radius; where there is less room the pin has a shoulder.
+THINNEST = 0.15
 #: Lengths nearer to each other than this are one, m.
 SAME = 1e-9
 
@@ -25,10 +35,12 @@ class Turned:
 
     layers: Layers
     pose: Pose
+    room: Room
     material: str
     density: float
     fit: float
     washer: float
+    notes: dict[Message, None] = field(default_factory=dict)
 
     def pins(self) -> Iterator[Part]:
         """A part for every pin and post: between the lower face of its lowest plate and the upper face of its highest
@@ -67,9 +79,13 @@ class Turned:
         found: dict[tuple[Sort, int, int, int], list[tuple[Place, int]]] = {}
         for pin in self._pins():
             if pin.sort == "pin":
-                for sort, length, place, layer in self._gaps(pin):
-                    key = sort, _steps(length), _steps(self._outer(pin)), _steps(pin_radius(pin))
-                    found.setdefault(key, []).append((place, layer))
+                for sort, length, place, layers in self._gaps(pin):
+                    outer = self._outer(pin, *layers)
+                    if outer - pin_radius(pin) - 0.5 * self.fit < THINNEST * pin_radius(pin):
+                        self.notes[_SHOULDER.format(pin=pin.name, length=shown(length, "length"))] = None
+                    else:
+                        key = sort, _steps(length), _steps(outer), _steps(pin_radius(pin))
+                        found.setdefault(key, []).append((place, layers[0]))
         sorts: tuple[Sort, ...] = ("spacer", "washer")
         for sort in sorts:
             rows = sorted(key for key in found if key[0] == sort)
@@ -117,8 +133,8 @@ class Turned:
         frame = [layer[plate] for plate in pin.plates if self.layers.solids.by_name[plate].sort == "frame"]
         return (0.0 if ends[0] in frame else size), (0.0 if ends[1] in frame else size)
 
-    def _gaps(self, pin: Solid) -> Iterator[tuple[Sort, float, Place, int]]:
-        """What lies between the plates on a pin: sort, length, place, and the layer below."""
+    def _gaps(self, pin: Solid) -> Iterator[tuple[Sort, float, Place, tuple[int, int]]]:
+        """What lies between the plates on a pin: sort, length, place, and the layers below and above."""
         ordered = sorted(pin.plates, key=lambda plate: self.layers.height[plate])
         hubs = [self._reach(each) for each in hubs_around(self.layers, self.pose, pin)]
         top = self.layers.height[ordered[0]][1]
@@ -128,10 +144,14 @@ class Turned:
             within_hub = any(low < top + 0.5 * length < high for low, high in hubs)
             if length > SAME and not within_hub:
                 sort: Sort = "washer" if abs(length - self.washer) <= SAME else "spacer"
-                yield sort, length, Place(pin.carrier, axis(pin), top, pin.name), self.layers.layer[lower]
+                layers = self.layers.layer[lower], self.layers.layer[upper]
+                yield sort, length, Place(pin.carrier, axis(pin), top, pin.name), layers
 
-    def _outer(self, pin: Solid) -> float:
-        return pin.head or RING * pin_radius(pin)
+    def _outer(self, pin: Solid, below: int, above: int) -> float:
+        """The outer radius of a spacer or washer between two layers, m: that of a head, or as much as there is room
+        for in the layers between."""
+        wanted = pin.head or RING * pin_radius(pin)
+        return min(wanted, self.room.radius(pin, below + 1, above - 1)) if above > below + 1 else wanted
 
 
 def _steps(length: float) -> int:

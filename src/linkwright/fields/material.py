@@ -18,7 +18,7 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node
 from linkwright.fields.reading import Place, Reader
 from linkwright.units import format
-from linkwright.words import Message, _
+from linkwright.words import Message, _, pgettext
 
 
 @dataclass(frozen=True)
@@ -50,6 +50,21 @@ _TABLE: Mapping[str, tuple[float, float, float]] = {
 MATERIALS: Mapping[str, Material] = {
     name: Material(name, float(density), strength * 1e6, modulus * 1e9)
     for name, (density, strength, modulus) in _TABLE.items()
+}
+#: What they are called.
+LABELS: Mapping[str, Message] = {
+    "steel": pgettext("material", "steel"),
+    "stainless_steel": pgettext("material", "stainless steel"),
+    "cast_iron": pgettext("material", "cast iron"),
+    "aluminium": pgettext("material", "aluminium"),
+    "brass": pgettext("material", "brass"),
+    "bronze": pgettext("material", "bronze"),
+    "pom": pgettext("material", "POM"),
+    "abs": pgettext("material", "ABS"),
+    "pla": pgettext("material", "PLA"),
+    "acrylic": pgettext("material", "acrylic"),
+    "plywood": pgettext("material", "plywood"),
+    "mdf": pgettext("material", "MDF"),
 }
 _FIELDS: Mapping[str, Quantity] = {
     "density": Quantity("density", above=0, required=True, doc=_("density")),

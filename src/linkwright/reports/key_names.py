@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from linkwright.fields.material import LABELS
 from linkwright.words import Message, _, pgettext
 
 #: Keys of both models and calculations.
@@ -35,6 +36,7 @@ SHARED: Mapping[str, Message] = {
 MODEL_KEYS: Mapping[str, Message] = {
     **SHARED,
     "barrel": pgettext("given", "barrel"),
+    "clearance": pgettext("construction", "clearance"),
     "colour": _("colour"),
     "inertia": _("moment of inertia"),
     "mass": _("mass"),
@@ -54,8 +56,11 @@ MODEL_KEYS: Mapping[str, Message] = {
     "carrier": _("carrier"),
     "centre": _("centre"),
     "components": _("components"),
+    "density": _("density"),
     "dwell": _("dwell"),
+    "ends": pgettext("construction", "ends of pins"),
     "first": _("first"),
+    "fit": pgettext("construction", "fit"),
     "free": _("share left out"),
     "free_angle": _("free angle"),
     "free_length": _("free length"),
@@ -65,11 +70,15 @@ MODEL_KEYS: Mapping[str, Message] = {
     "input": _("input"),
     "interpolation": _("interpolation"),
     "joint": _("joint"),
+    "kerf": pgettext("construction", "kerf"),
     "last": _("last"),
     "law": _("law"),
+    "layers": pgettext("construction", "layers"),
     "lifts": _("lifts"),
     "links": _("links"),
+    "material": _("material"),
     "mesh": _("mesh"),
+    "modulus": _("modulus of elasticity"),
     "module": _("module"),
     "moving": _("while moving"),
     "normal_to": _("normal to"),
@@ -90,15 +99,22 @@ MODEL_KEYS: Mapping[str, Message] = {
     "ratio": _("ratio"),
     "relative_to": _("relative to"),
     "run": _("run"),
+    "safety": _("safety factor"),
+    "sheet": pgettext("construction", "sheet"),
     "side": _("side"),
     "slide": _("slides in"),
     "start": pgettext("given", "start"),
+    "strength": _("yield strength"),
+    "supports": _("supports"),
     "table": _("table"),
     "teeth": _("teeth"),
+    "thickness": _("thickness"),
     "through": _("through"),
     "to": _("to"),
     "touch": _("touch"),
     "turn": _("turns"),
+    "washer": pgettext("construction", "washer"),
+    "width": _("width"),
     "x": _("x"),
     "y": _("y"),
 }
@@ -262,6 +278,11 @@ CALCULATION_KEYS: Mapping[str, Message] = {
 }
 #: Values that are words of the model language.
 VALUES: Mapping[str, Message] = {
+    **LABELS,
+    "both": pgettext("construction", "on both sides"),
+    "cantilevered": pgettext("construction", "on one side"),
+    "flush": pgettext("construction", "flush"),
+    "heads": pgettext("construction", "with heads"),
     "backward": _("backward"),
     "clockwise": _("clockwise"),
     "counterclockwise": _("counterclockwise"),
