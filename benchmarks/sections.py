@@ -303,6 +303,23 @@ def dynamics(size: Size) -> Section:
     return Section("Motion under forces: Watt six-bar, chains of four-bars", header, rows, goals, notes)
 
 
+def gaps(size: Size) -> Section:
+    """Smallest gaps of a machine over its cycle."""
+    from benchmarks import collisions
+
+    work = collisions.SixbarGaps()
+    rounds = in_turns(work.candidates(), size.rounds, size.slice_s, process_time)
+    header, rows = timings(rounds, collisions.DENSE, "ms")
+    ratio = rounds.ratio(collisions.SOLVED, collisions.DENSE)
+    goals = [
+        Goal(f"gaps of the six-bar ÷ shapely in {collisions.POSITIONS} positions, time", ratio, 0.25, False),
+        Goal("gaps of the six-bar, motion solved, ms", 1e3 * rounds.timings[collisions.SOLVED].median, 50.0, False),
+    ]
+    larger, smaller = work.disagreement()
+    note = f"{len(work.pairs)} pairs; at most {larger:.1e} m larger than by shapely, {smaller:.1e} m smaller"
+    return Section("Smallest gaps over the cycle: Watt six-bar", header, rows, goals, [note])
+
+
 SECTIONS: Mapping[str, Callable[[Size], Section]] = {
     "w2": lambda size: kernels("fourbar", size),
     "w3": lambda size: kernels("sixbar", size),
@@ -315,6 +332,7 @@ SECTIONS: Mapping[str, Callable[[Size], Section]] = {
     "cycles": cycles,
     "growth": growing,
     "dynamics": dynamics,
+    "gaps": gaps,
     "cold": cold_start,
     "accuracy": accuracy,
 }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import cached_property
 
 import numpy as np
@@ -55,9 +55,25 @@ class CyclePieces:
         self._low = self._high = motion.time[self._number]
 
     def time(self, piece: Indices, x: Floats) -> Floats:
-        """Times, s, of places ``x``, -1 to 1, of pieces."""
+        """Times, s, of places ``x``, -1 to 1, of pieces, within the cycle."""
+        found = self._time(piece, x)
+        return found if self._end is None else np.where(found > self._end, found - self._period, found)
+
+    def _time(self, piece: Indices, x: Floats) -> Floats:
+        """The same, beyond the end of a closed cycle for what is reached across it."""
         place = self._low[piece] + 0.5 * (1.0 + x) * (self._high[piece] - self._low[piece])
         return place if self._ways is None else self._ways.time(place, self._way[piece])
+
+    @cached_property
+    def _period(self) -> float:
+        """That of a closed cycle, s; 0 of another."""
+        positions = self._analysis.motion.positions
+        return positions.period or 0.0 if positions.closed else 0.0
+
+    @cached_property
+    def _end(self) -> float | None:
+        """When a closed cycle ends, s."""
+        return float(self._analysis.motion.time[0]) + self._period if self._period else None
 
     def input(self, piece: Indices, time: Floats) -> Floats:
         """The first driver's coordinate at times of pieces, rad or m; NaN without a driver."""
@@ -76,7 +92,7 @@ class CyclePieces:
     @cached_property
     def _widths(self) -> Floats:
         every, ones = np.arange(self.count), np.ones(self.count)
-        return np.abs(self.time(every, ones) - self.time(every, -ones))
+        return np.abs(self._time(every, ones) - self._time(every, -ones))
 
     def share(self, piece: Indices) -> Floats:
         """Shares (n,) of that time in pieces."""
@@ -90,11 +106,24 @@ class CyclePieces:
             breaks = np.flatnonzero(np.diff(number) > 1)
             begin, end = self._low[number], self._low[number]
         else:
-            begin, end = self.time(piece, low), self.time(piece, high)
+            begin, end = self._time(piece, low), self._time(piece, high)
             order = np.argsort(begin, kind="stable")
             begin, end = begin[order], np.maximum.accumulate(end[order])
             breaks = np.flatnonzero(begin[1:] - end[:-1] > slack * self.duration)
         if not len(begin):
             return ()
         firsts, lasts = np.append(0, breaks + 1), np.append(breaks, len(begin) - 1)
-        return tuple(zip(begin[firsts].tolist(), end[lasts].tolist(), strict=True))
+        return self._within(zip(begin[firsts].tolist(), end[lasts].tolist(), strict=True))
+
+    def _within(self, spans: Iterable[Span]) -> tuple[Span, ...]:
+        """Spans within the cycle, in two where they go over its end."""
+        if self._end is None:
+            return tuple(spans)
+        end, period, found = self._end, self._period, list[Span]()
+        for first, last in spans:
+            if last <= end:
+                found.append((first, last))
+                continue
+            found += [(first, end)] if first < end else []
+            found.append((max(first, end) - period, last - period))
+        return tuple(sorted(found))

@@ -18,6 +18,8 @@ from linkwright.shapes.shape import Shape
 TOLERANCE, EQUAL = 1e-9, 1e-12
 #: Parabolas towards the place of a smallest gap.
 PARABOLAS = 3
+#: Bisections towards the place of a contact.
+BISECTIONS = 40
 #: Intervals are halved no more than so many times, and so many corners against sides are looked at together.
 HALVINGS, TOGETHER = 48, 400_000
 
@@ -28,7 +30,8 @@ Near = Callable[[Approaches], Approaches]
 @dataclass(eq=False)
 class Nearest:
     """Of every pair the smallest gap ``size``, m, found at ``x`` of a ``piece``, ``place`` the middle between the
-    nearest places in the axes of the side's link, which is that of the second shape where ``pose`` is odd."""
+    nearest places in the axes of the side's link, which is that of the second shape where ``pose`` is odd.
+    ``crosses``: it is found that the corner passes over the side between ``x`` and ``width`` behind it."""
 
     size: Floats
     pose: Indices
@@ -37,6 +40,7 @@ class Nearest:
     piece: Indices
     x: Floats
     width: Floats
+    crosses: Flags
     place: Complexes
 
     @classmethod
@@ -44,7 +48,10 @@ class Nearest:
         """Nothing found yet."""
         pose, corner, side, piece = np.zeros((4, count), dtype=np.intp)
         x, width = np.zeros((2, count))
-        return cls(np.full(count, np.inf), pose, corner, side, piece, x, width, np.zeros(count, dtype=complex))
+        crosses = np.zeros(count, dtype=np.bool_)
+        return cls(
+            np.full(count, np.inf), pose, corner, side, piece, x, width, crosses, np.zeros(count, dtype=complex)
+        )
 
 
 class Search:
@@ -150,7 +157,7 @@ class Search:
         best = found.size.copy()
         np.minimum.at(best, pair[better], size[better])
         better = better[size[better] <= best[pair[better]] + self._equal]
-        at_end = bounds.last[better] < bounds.first[better]
+        at_end = (bounds.last[better] < bounds.first[better]) & ~bounds.crosses[better]
         x = np.where(at_end, over.high[better], over.low[better])
         later_first = np.lexsort((-x, -over.piece[better]))
         better, x, taken = better[later_first], x[later_first], pair[better][later_first]
@@ -158,6 +165,7 @@ class Search:
         found.pose[taken] = over.meetings.pose[better]
         found.corner[taken], found.side[taken] = over.meetings.corner[better], over.meetings.side[better]
         found.width[taken] = over.high[better] - over.low[better]
+        found.crosses[taken] = bounds.crosses[better]
 
     def _settle(self, found: Nearest) -> None:
         """Moves places to where gaps are smallest within the tolerance, by parabolas."""
@@ -173,12 +181,30 @@ class Search:
             x = np.where((bend > 0.0) & (found.size > self.tolerance), x, found.x)
             better = self._apart(found, x)[0] < self._apart(found, found.x)[0]
             found.x, away = np.where(better, x, found.x), 0.125 * away
+        self._cross(found)
         apart, corner, near = self._apart(found, found.x)
         found.size = np.minimum(found.size, apart - begin - end)
         found.size[found.size <= self.tolerance] = 0.0
         with np.errstate(invalid="ignore", divide="ignore"):
             way = np.where(apart > 0.0, (near - corner) / apart, 0.0)
         found.place = 0.5 * (corner + near + (begin - end) * way)
+
+    def _cross(self, found: Nearest) -> None:
+        """Moves to the contact where a corner passes over a side within the interval in which that was found."""
+        own, passing = self.outlines, np.flatnonzero(found.crosses)
+        low, high = found.x[passing], found.x[passing] + found.width[passing]
+        pose, piece, corner, side = (each[passing] for each in (found.pose, found.piece, found.corner, found.side))
+
+        def off(x: Floats) -> Floats:
+            place, turn = self.paths.pose(pose, piece, x)
+            return np.asarray((own.way[side].conj() * (place + turn * own.corner[corner] - own.begin[side])).imag)
+
+        below = off(low) < 0.0
+        for _ in range(BISECTIONS if len(passing) else 0):
+            middle = 0.5 * (low + high)
+            same = (off(middle) < 0.0) == below
+            low, high = np.where(same, middle, low), np.where(same, high, middle)
+        found.x[passing] = low
 
     def _apart(self, found: Nearest, x: Floats) -> tuple[Floats, Complexes, Complexes]:
         """Distances of the corners from the sides at places of pieces, and both nearest places."""
