@@ -6,15 +6,20 @@ import cmath
 from dataclasses import dataclass, replace
 
 from linkwright.joints.lower_pair import SlidingJoint
+from linkwright.mechanism.plate import plate, shape_kind
+from linkwright.shapes.distance import gap
 from linkwright.shapes.shape import Shape, bar, disc, joined, polygon
 from linkwright.solids.draft import Body, Draft
-from linkwright.solids.mounting import fasten
+from linkwright.solids.links import moved
+from linkwright.solids.mounting import clear, fasten
 from linkwright.solids.slots import Slot
 from linkwright.solids.solid import Solid
 
 #: Length of a block, wall around its slot, radius of the posts of a guide, play at the ends of a stroke: shares of
 #: the block's width.
 LENGTH, WALL, POST, PLAY = 1.5, 0.3, 0.2, 0.1
+#: How far outwards posts are tried, in radii from the end of the wall.
+OUTWARDS = (1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 10.0, 14.0)
 #: A slide is a cylinder where the distance of its ends is never less than so many widths.
 CYLINDER = 2.0
 #: Length of a barrel at most, as a share of the shortest distance.
@@ -26,14 +31,15 @@ class Slide:
     """A guide with its block as they are made.
 
     ``slot``: in the axes of the guide's carrier; ``plate``: of the guide; ``own``: whether that is a plate of its
-    own, held by posts; ``shift``: how far along the guide the block is from the point of its link, m.
+    own, held by ``posts`` at its ends; ``shift``: how far along the guide the block is from the point of its link, m.
     """
 
     joint: SlidingJoint
     slot: Slot
     own: bool
     plate: str
-    shift: float
+    shift: float = 0.0
+    posts: tuple[complex, ...] = ()
 
     @property
     def block(self) -> str:
@@ -54,11 +60,7 @@ def plan_slides(draft: Draft) -> list[Slide]:
             _make_cylinder(draft, joint)
         else:
             found.append(_planned(draft, joint))
-    found = [_shifted(draft, each) for each in found]
-    for slide in found:
-        if slide.own:
-            draft.body(slide.joint.guide).fixed.append(posts(slide.slot))
-    return found
+    return [_with_posts(draft, _shifted(draft, each)) for each in found]
 
 
 def is_cylinder(draft: Draft, joint: SlidingJoint) -> bool:
@@ -119,23 +121,47 @@ def _planned(draft: Draft, joint: SlidingJoint) -> Slide:
     body = draft.body(joint.guide)
     if _fits(draft, body, slot):
         body.slots.append(slot)
-        return Slide(joint, slot, False, body.carrier, 0.0)
-    return Slide(joint, slot, True, f"guide {joint.name}", 0.0)
+        return Slide(joint, slot, False, body.carrier)
+    if _has_slot(draft, joint.guide, slot):
+        return Slide(joint, slot, False, body.carrier)
+    return Slide(joint, slot, True, f"guide {joint.name}")
 
 
 def _fits(draft: Draft, body: Body, slot: Slot) -> bool:
     """Whether a slot can be cut into the plate of a body: no pin and no other slot in its way."""
-    if body.carrier == "frame" or body.shape is not None:
+    given = any(_outline(draft, link) for link in body.links)
+    if body.carrier == "frame" or body.shape is not None or given:
         return False
     pins = draft.pinned(body)
     clear = all(slot.distance(place) > 1.5 * draft.sizes.pin_radius[name] for name, place in pins)
     return clear and not any(slot.meets(each) for each in body.slots)
 
 
-def posts(slot: Slot) -> tuple[complex, complex]:
-    """Places of the posts at the ends of a guide."""
-    out = slot.wall + 2.0 * POST * slot.half
-    return slot.at(slot.low - out), slot.at(slot.high + out)
+def _outline(draft: Draft, link: str) -> bool:
+    """Whether the file gives the outline of a link."""
+    return shape_kind(draft.mechanism.link(link)) == "outline"
+
+
+def _has_slot(draft: Draft, link: str, slot: Slot) -> bool:
+    """Whether a given outline leaves the way of a block free, as a slot of its own or along an edge."""
+    if not _outline(draft, link):
+        return False
+    own = moved(plate(draft.mechanism.link(link), 0.0), draft.carriers.places[link])
+    return gap(own, polygon(slot.corners(-PLAY * slot.half))) > 0.0
+
+
+def _with_posts(draft: Draft, slide: Slide) -> Slide:
+    """A guide with the places of its posts, beyond its ends and clear of pins."""
+    if not slide.own:
+        return slide
+    body, slot, radius = draft.body(slide.joint.guide), slide.slot, POST * slide.width
+    ends = ((slot.low, -1.0), (slot.high, 1.0))
+    found = [
+        clear(draft, body, (slot.at(end + sign * (slot.wall + radius * share)) for share in OUTWARDS), radius)
+        for end, sign in ends
+    ]
+    body.fixed.append((found[0], found[1]))
+    return replace(slide, posts=(found[0], found[1]))
 
 
 def _shifted(draft: Draft, slide: Slide) -> Slide:
@@ -177,10 +203,11 @@ def add_guides(draft: Draft, slides: list[Slide]) -> None:
 
 def _add_guide(draft: Draft, slide: Slide) -> None:
     body, slot, radius = draft.body(slide.joint.guide), slide.slot, POST * slide.width
-    eyes = (disc(each, radius + slot.wall) for each in posts(slot))
-    shape = joined([Shape((slot.ring,)), *eyes])
+    ends = (slot.at(slot.low - radius - slot.wall), slot.at(slot.high + radius + slot.wall))
+    arms = [bar(pair, 2.0 * (radius + slot.wall)) for pair in zip(ends, slide.posts, strict=True)]
+    shape = joined([Shape((slot.ring,)), *arms])
     draft.plate(slide.plate, "guide", body.carrier, shape, slide.joint.guide)
-    fasten(draft, slide.joint.name, body, slide.plate, posts(slot), radius)
+    fasten(draft, slide.joint.name, body, slide.plate, slide.posts, radius)
 
 
 def add_blocks(draft: Draft, slides: list[Slide], alone: dict[str, Slide]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from linkwright.shapes.shape import Shape, disc
@@ -10,6 +11,8 @@ from linkwright.solids.solid import Solid, Sort
 
 #: Radius of a hub, as a share of its pin's.
 HUB = 1.6
+#: How far a post keeps from pins, in sums of their radii.
+APART = 1.25
 
 
 @dataclass(frozen=True)
@@ -42,6 +45,18 @@ def add_disc(draft: Draft, sort: Sort, link: str, name: str, shape: Shape, centr
     draft.add(Solid(hub, "post", body.carrier, disc(centre, radius), plates), *plates)
     draft.bore(plates, {body.carrier: centre}, radius)
     return Axle(body.carrier, centre, name, hub)
+
+
+def clear(draft: Draft, body: Body, places: Iterable[complex], radius: float) -> complex:
+    """The first of some places for a post of a radius that is clear of the pins and other posts of a body; else the
+    last one."""
+    taken = [(place, draft.sizes.pin_radius[name]) for name, place in draft.pinned(body)]
+    taken += [(place, radius) for place in body.held]
+    place = 0j
+    for place in places:
+        if all(abs(place - other) >= APART * (radius + pin) for other, pin in taken):
+            break
+    return place
 
 
 def eye(draft: Draft, body: Body, place: complex) -> float:

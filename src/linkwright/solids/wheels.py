@@ -23,8 +23,8 @@ from linkwright.words import _
 
 #: Corners of a ring; from its pitch circle to its rim in modules (root 1.25, rim 2.5).
 CORNERS, RIM = 96, 3.75
-#: The same without teeth, and radius of a post: shares of the link's width.
-BARE, POST = 0.5, 0.15
+#: The same without teeth, and radius of a post: shares of the link's width; of a post as a share of the rim at most.
+BARE, POST, IN_RIM = 0.5, 0.15, 0.25
 
 
 @dataclass(eq=False)
@@ -150,7 +150,7 @@ def _posts(draft: Draft, wheel: Wheel) -> tuple[complex, complex]:
     """Two places opposite each other in the rim of a ring, in line with the farthest point of its link."""
     far = max((each - wheel.centre for each in draft.points(wheel.body)), key=abs)
     way = far / abs(far) if abs(far) > draft.near else 1 + 0j
-    middle = 0.5 * (wheel.radius + _rim(draft, wheel)) * way
+    middle = 0.5 * (wheel.tip + _rim(draft, wheel)) * way
     return wheel.centre - middle, wheel.centre + middle
 
 
@@ -194,5 +194,6 @@ def _add_wheel(draft: Draft, wheel: Wheel) -> tuple[str, list[Axle]]:
     if not wheel.inside:
         return name, [add_disc(draft, "wheel", wheel.link, name, shape, wheel.centre)]
     draft.plate(name, "wheel", body.carrier, shape, wheel.link)
-    fasten(draft, name, body, name, _posts(draft, wheel), POST * draft.width(body))
+    radius = min(POST * draft.width(body), IN_RIM * (_rim(draft, wheel) - wheel.tip))
+    fasten(draft, name, body, name, _posts(draft, wheel), radius)
     return name, []
