@@ -13,12 +13,11 @@ from linkwright.mechanism.wheels_and_cams import CamShape, full_turn
 from linkwright.shapes.shape import Piece, Shape, disc, polygon
 from linkwright.solids.draft import Body, Draft
 from linkwright.solids.mounting import Axle, add_disc, eye, fasten
-from linkwright.solids.solid import Solid
 
 #: Every which of the places of a drawn profile is a corner of the plate.
 EVERY = 2
-#: Radius of a roller's pin, as a share of the roller's at most; of a post, as one of the link's width.
-PIN, POST = 0.5, 0.15
+#: Radius of a post, as a share of the link's width.
+POST = 0.15
 #: Depth of a face or an edge, and the rim outside a groove, in widths of the link.
 DEPTH, RIM = 0.8, 0.5
 
@@ -137,17 +136,11 @@ def add_cams(draft: Draft, found: list[Cam]) -> list[Axle]:
 
 
 def _add_roller(draft: Draft, cam: Cam, body: Body) -> Axle:
-    """A roller on a pin of its own, or on one that is there."""
+    """A roller, an axle for the pin about which it turns."""
     joint = cam.joint
     name, at = draft.free_name(f"roller {joint.follower}"), draft.carriers.place(joint.follower, joint.at)
     draft.plate(name, "roller", body.carrier, disc(at, joint.roller_radius), joint.follower, cam.plate)
     draft.level.append((cam.plate, name))
-    if not any(abs(place - at) <= draft.near for _name, place in draft.pinned(body)):
-        plates = tuple(each for each in (body.plate, name) if each)
-        width = draft.width(body)
-        radius = min(PIN * joint.roller_radius, 0.25 * width)
-        draft.add(Solid(f"pin {joint.name}", "pin", body.carrier, disc(at, radius), plates, 0.0), *plates)
-        draft.bore(plates, {body.carrier: at}, radius)
     return Axle(body.carrier, at, name)
 
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
 from linkwright.core.arrays import Complexes
+from linkwright.joints.cam import CamJoint
 from linkwright.joints.lower_pair import SlidingJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import Placement, placements
@@ -113,6 +114,17 @@ class Draft:
             for link in pin.joined
             if link in body.links
         ]
+
+    def rollers(self, body: Body) -> Iterator[CamJoint]:
+        """The cams on which rollers of some links run."""
+        for joint in self.mechanism.joints.values():
+            if (
+                isinstance(joint, CamJoint)
+                and joint.centre
+                and joint.touch == "roller"
+                and joint.follower in body.links
+            ):
+                yield joint
 
     def add(self, solid: Solid, *joined: str) -> None:
         """Adds a solid that touches others, by their names."""

@@ -52,11 +52,9 @@ def clear(draft: Draft, body: Body, places: Iterable[complex], radius: float) ->
     last one."""
     taken = [(place, draft.sizes.pin_radius[name]) for name, place in draft.pinned(body)]
     taken += [(place, radius) for place in body.held]
-    place = 0j
-    for place in places:
-        if all(abs(place - other) >= APART * (radius + pin) for other, pin in taken):
-            break
-    return place
+    found = [*places]
+    free = (each for each in found if all(abs(each - other) >= APART * (radius + pin) for other, pin in taken))
+    return next(free, found[-1])
 
 
 def eye(draft: Draft, body: Body, place: complex) -> float:

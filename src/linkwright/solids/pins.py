@@ -2,66 +2,73 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from linkwright.shapes.shape import disc
+from linkwright.solids.axes import Axis, axes_of, held_by
+from linkwright.solids.blocks import around_pin
 from linkwright.solids.draft import Draft
-from linkwright.solids.frame import COVER
-from linkwright.solids.guides import Slide, around_pin
+from linkwright.solids.guides import Slide
 from linkwright.solids.mounting import Axle
 from linkwright.solids.solid import Solid
+from linkwright.words import _
 
-#: Radius of a pin's head, as a share of the pin's (ISO 2341: 1.4 to 1.6).
-HEAD = 1.5
+#: Radius of a pin's head as a share of the pin's (ISO 2341: 1.4 to 1.6), and the smallest; how near it comes to
+#: another pin.
+HEAD, MIN_HEAD, ROOM = 1.5, 1.2, 0.1
 
 
 def add_pins(draft: Draft, slides: list[Slide], axles: list[Axle]) -> None:
     """One pin for all joints at one place, through the wheels and cams that are there too."""
-    for names in coaxial(draft):
-        _add_pin(draft, slides, axles, names)
+    axes = axes_of(draft)
+    held = held_by(draft, axes)
+    for axis in axes:
+        _add_pin(draft, slides, axles, axis, held.get(axis.name, ()))
+    _fit_heads(draft, axes)
 
 
-def coaxial(draft: Draft) -> list[list[str]]:
-    """Names of the pins in groups: those in a group have a link with both at the same place."""
-    groups: list[list[str]] = []
-    for name in draft.mechanism.pins:
-        touching = [each for each in groups if any(_same(draft, name, other) for other in each)]
-        groups = [each for each in groups if each not in touching]
-        groups.append([*(other for each in touching for other in each), name])
-    return groups
-
-
-def _same(draft: Draft, one: str, other: str) -> bool:
-    first, second = _places(draft, one), _places(draft, other)
-    return any(abs(first[each] - second[each]) <= draft.near for each in first.keys() & second.keys())
-
-
-def _places(draft: Draft, name: str) -> dict[str, complex]:
-    """Where a pin is in the axes of the carriers of its links."""
-    links = draft.mechanism.pins[name].joined
-    return {draft.carriers.carrier(link): draft.carriers.place(link, name) for link in links}
-
-
-def _is_on(draft: Draft, axle: Axle, places: dict[str, complex]) -> bool:
-    return axle.carrier in places and abs(places[axle.carrier] - axle.centre) <= draft.near
-
-
-def _add_pin(draft: Draft, slides: list[Slide], axles: list[Axle], names: list[str]) -> None:
-    places = {carrier: place for name in names for carrier, place in _places(draft, name).items()}
-    plates = [each for carrier in places if (each := draft.bodies[carrier].plate)]
-    on = [each for each in axles if _is_on(draft, each, places)]
+def _add_pin(draft: Draft, slides: list[Slide], axles: list[Axle], axis: Axis, frame: tuple[str, ...]) -> None:
+    places = axis.places
+    plates = [*frame, *(each for carrier in places if carrier != "frame" and (each := draft.bodies[carrier].plate))]
+    on = [each for each in axles if axis.meets(draft, {each.carrier: each.centre})]
     plates += [each.plate for each in on]
     around = [each.hub for each in on]
     for carrier, place in places.items():
-        reached, blocks = around_pin(draft, slides, carrier, place)
-        plates += reached
-        around += blocks
-    if COVER in draft.solids and "frame" in places:
-        plates.append(COVER)
+        blocks, guides = around_pin(draft, slides, carrier, place)
+        plates += blocks
+        around += guides
     if not plates:
         return
-    radius = max(draft.sizes.pin_radius[name] for name in names)
+    through = tuple(dict.fromkeys(plates))
     flush = draft.construction is not None and draft.construction.ends == "flush"
     carrier = "frame" if "frame" in places else next(iter(places))
-    pin, through = f"pin {names[0]}", tuple(dict.fromkeys(plates))
-    head = 0.0 if flush else HEAD * radius
-    draft.add(Solid(pin, "pin", carrier, disc(places[carrier], radius), through, head), *through, *around)
-    draft.bore(through, places, radius)
+    head = 0.0 if flush else HEAD * axis.radius
+    pin = Solid(f"pin {axis.name}", "pin", carrier, disc(places[carrier], axis.radius), through, head)
+    draft.add(pin, *through, *around)
+    draft.bore(through, places, axis.radius)
+
+
+def _fit_heads(draft: Draft, axes: list[Axis]) -> None:
+    """Makes heads smaller that would meet another pin of their link, and leaves out those without room."""
+    without = []
+    for axis in axes:
+        pin = draft.solids.get(f"pin {axis.name}")
+        if pin is None or not pin.head:
+            continue
+        room = min((_room(axis, each) for each in axes if each is not axis), default=pin.head)
+        head = min(pin.head, room - ROOM * axis.radius)
+        if head < MIN_HEAD * axis.radius:
+            head = 0.0
+            without.append(axis.name)
+        draft.solids[pin.name] = replace(pin, head=head)
+    if without:
+        draft.notes[
+            _("Pins without heads, for which there is no room next to other pins: {names}.", names=tuple(without))
+        ] = None
+
+
+def _room(axis: Axis, other: Axis) -> float:
+    """From the middle of a pin to another pin in the same link, m."""
+    shared = axis.places.keys() & other.places.keys()
+    gaps = (abs(axis.places[each] - other.places[each]) - other.radius for each in shared)
+    return min(gaps, default=float("inf"))

@@ -10,8 +10,8 @@ from linkwright.shapes.shape import Shape, polygon
 from linkwright.solids.draft import Body, Draft
 from linkwright.solids.mounting import fasten
 
-#: From the pitch line to the back of a rack, and beyond the last place of a pinion, in modules.
-BACK, TEETH_BEYOND = 3.75, 2.0
+#: From the pitch line to the back of a rack, beyond the last place of a pinion, and height of its teeth, in modules.
+BACK, TEETH_BEYOND, TEETH = 3.75, 2.0, 2.25
 #: Height of the teeth in modules (ISO 53 A).
 HIGH = 2.25
 #: The same without teeth, and radius of a post: shares of the link's width.
@@ -72,18 +72,23 @@ def _module(joint: RackPair) -> float:
 
 
 def settle_rack(draft: Draft, rack: Rack) -> None:
-    """Whether a rack is its link's plate, as it is around all of its points; else that plate holds its posts."""
+    """Whether a rack is its link's plate, as it is around all of its points below the roots of its teeth; else that
+    plate holds its posts."""
     body = rack.body
-    if draft.is_free(body) and not body.fixed and all(_within(rack, each) for each in draft.points(body)):
+    if (
+        draft.is_free(body)
+        and not body.fixed
+        and all(_within(rack, each, POST * draft.width(body)) for each in draft.points(body))
+    ):
         body.shape, body.sort, rack.is_link = rack.shape, "wheel", True
     else:
         body.fixed.append(rack.posts)
 
 
-def _within(rack: Rack, place: complex) -> bool:
+def _within(rack: Rack, place: complex, room: float) -> bool:
     gap = place - rack.start
     along, over = (gap * rack.way.conjugate()).real, (gap * rack.across.conjugate()).real
-    return 0.0 < along < rack.length and 0.0 < over < rack.depth
+    return room < along < rack.length - room and room < over < rack.depth - TEETH * rack.module - room
 
 
 def add_rack(draft: Draft, rack: Rack) -> str:

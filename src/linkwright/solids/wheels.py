@@ -21,8 +21,8 @@ from linkwright.solids.planes import planes_of
 from linkwright.solids.racks import Rack, add_rack, rack_of, settle_rack
 from linkwright.words import _
 
-#: Corners of a ring; from its pitch circle to its rim in modules (root 1.25, rim 2.5).
-CORNERS, RIM = 96, 3.75
+#: Corners of a ring; from its pitch circle to its roots and to its rim in modules (ISO 53; rim 2.5).
+CORNERS, ROOT, RIM = 96, 1.25, 3.75
 #: The same without teeth, and radius of a post: shares of the link's width; of a post as a share of the rim at most.
 BARE, POST, IN_RIM = 0.5, 0.15, 0.25
 
@@ -150,8 +150,13 @@ def _posts(draft: Draft, wheel: Wheel) -> tuple[complex, complex]:
     """Two places opposite each other in the rim of a ring, in line with the farthest point of its link."""
     far = max((each - wheel.centre for each in draft.points(wheel.body)), key=abs)
     way = far / abs(far) if abs(far) > draft.near else 1 + 0j
-    middle = 0.5 * (wheel.tip + _rim(draft, wheel)) * way
+    middle = 0.5 * (_root(wheel) + _rim(draft, wheel)) * way
     return wheel.centre - middle, wheel.centre + middle
+
+
+def _root(wheel: Wheel) -> float:
+    """The radius to which the gaps of a ring reach, m."""
+    return wheel.radius + ROOT * wheel.module
 
 
 def _rim(draft: Draft, wheel: Wheel) -> float:
@@ -194,6 +199,6 @@ def _add_wheel(draft: Draft, wheel: Wheel) -> tuple[str, list[Axle]]:
     if not wheel.inside:
         return name, [add_disc(draft, "wheel", wheel.link, name, shape, wheel.centre)]
     draft.plate(name, "wheel", body.carrier, shape, wheel.link)
-    radius = min(POST * draft.width(body), IN_RIM * (_rim(draft, wheel) - wheel.tip))
+    radius = min(POST * draft.width(body), IN_RIM * (_rim(draft, wheel) - _root(wheel)))
     fasten(draft, name, body, name, _posts(draft, wheel), radius)
     return name, []

@@ -47,6 +47,6 @@ def test_planes_of_pairs() -> None:
 def test_a_cam_is_level_with_its_roller() -> None:
     found = solids(machine("printing_press"))
     assert ("cam bell_crank", "roller lower_rack") in found.level
-    assert found.by_name["pin compensating_cam"].plates == ("lower_rack", "roller lower_rack")
+    assert found.by_name["pin compensating_cam"].plates == ("lower_rack", "roller lower_rack", "block rack_guide")
     assert found.by_name["hub bell_crank"].plates == ("bell_crank", "cam bell_crank")
     assert ("hub bell_crank", "pin O2") in found.joined
