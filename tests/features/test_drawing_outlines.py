@@ -23,7 +23,7 @@ def test_bars_are_drawn_with_round_ends_and_holes_to_scale() -> None:
 
 def test_notes_say_what_is_drawn_by_rule() -> None:
     (first, *_others) = draw(machine("chain_drive"), outlines=True).notes
-    assert "twelfth" in first
+    assert "Sizes that the file does not give" in first
     assert any("chain" in each.lower() for each in _others)
 
 

@@ -10,9 +10,12 @@ import numpy as np
 from linkwright.shapes.distance import core_distances
 from linkwright.solids.draft import Draft
 from linkwright.solids.frame import COVER
+from linkwright.words import _
 
 #: Radius of a roller's pin, as a share of the roller's and of the link's width at most.
 ROLLER_PIN, PIN = 0.5, 0.25
+#: A link comes over a pin where it is nearer to its middle at a solved position than so many of its radii.
+NEAR = 1.02
 
 
 @dataclass(frozen=True)
@@ -76,18 +79,22 @@ def held_by(draft: Draft, axes: Iterable[Axis]) -> dict[str, tuple[str, ...]]:
             ]
             taken = {found[each.name] for each in against if each.name in found}
             found[axis.name] = (COVER,) if base in taken and (COVER,) not in taken else base
+    single = tuple(name for name, carriers in crossed.items() if carriers)
+    if single:
+        draft.notes[_("Pins that are held on one side only, as links move over them: {names}.", names=single)] = None
     return found
 
 
 def _crossed(draft: Draft, axis: Axis) -> frozenset[str]:
     """Carriers of plates that come over a pin of the frame which is not theirs."""
-    place = axis.places["frame"]
-    found = set()
+    place, found = axis.places["frame"], set()
+    clearance = 0.0 if draft.construction is None else draft.construction.clearance or 0.0
+    radius = axis.radius * NEAR + clearance
     for solid in draft.solids.values():
         if solid.sort == "frame" or not solid.is_plate or solid.carrier in axis.places.keys() - {"frame"}:
             continue
         seen = draft.seen_place("frame", place, solid.carrier)
-        seen = seen[np.abs(seen - solid.shape.bound[0]) <= solid.shape.bound[1] + axis.radius]
-        if any((core_distances(each, seen) <= each.radius + axis.radius).any() for each in solid.shape.pieces):
+        seen = seen[np.abs(seen - solid.shape.bound[0]) <= solid.shape.bound[1] + radius]
+        if any((core_distances(each, seen) <= each.radius + radius).any() for each in solid.shape.pieces):
             found.add(solid.carrier)
     return frozenset(found)
