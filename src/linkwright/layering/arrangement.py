@@ -166,19 +166,28 @@ class Layers(Tabular, Frozen):
         return Pin(solid.name, tuple(plates), high - low, solid.head, heads, spaces)
 
     @cached_property
+    def nearest(self) -> tuple[str, str, Gap] | None:
+        """The two in one layer that come nearest over the cycle, and their gap; of a machine without layers the two
+        that overlap or come too near; None where nothing shares a layer. Pins in one plate, which never come
+        nearer, do not count."""
+        if self.conflicts:
+            against = {each.first for each in self.conflicts} | {each.second for each in self.conflicts}
+            found = [(*pair, gap) for pair, gap in self.gaps.items() if {*pair} <= against]
+        else:
+            found = [(*pair, gap) for pair, gap in self.gaps.items() if self._together(*pair)]
+        return min(found, key=lambda each: each[2].size, default=None)
+
+    @property
     def min_gap(self) -> float:
         """The smallest gap over the cycle of what lies in one layer, m; infinite where nothing does."""
-        spans = {
-            name: self.span(name) for name, each in self.solids.by_name.items() if {*each.plates} & self.layer.keys()
-        }
-        together = (
-            gap.size
-            for (one, other), gap in self.gaps.items()
-            if one in spans
-            and other in spans
-            and max(spans[one][0], spans[other][0]) <= min(spans[one][1], spans[other][1])
-        )
-        return min(together, default=inf)
+        return inf if self.conflicts or self.nearest is None else self.nearest[2].size
+
+    def _together(self, one: str, other: str) -> bool:
+        """Whether two solids have a layer in common, and no plate that holds both."""
+        if {*self.solids.by_name[one].plates} & {*self.solids.by_name[other].plates}:
+            return False
+        spans = [self.span(each) for each in (one, other) if {*self.solids.by_name[each].plates} & self.layer.keys()]
+        return len(spans) == 2 and max(low for low, _high in spans) <= min(high for _low, high in spans)
 
     @property
     def notes(self) -> tuple[Message | str, ...]:
