@@ -33,9 +33,10 @@ def smallest_gap(metric: Metric, analysis: Analysis) -> Iterator[MetricValue]:
 
 def _layers(analysis: Analysis) -> Layers:
     """Found once for all numbers of a machine."""
-    if "layers" not in analysis.cached:
-        analysis.cached["layers"] = layers(analysis.motion.mechanism)
-    found: Layers = analysis.cached["layers"]
+    key = ("layers", "")
+    if key not in analysis.cached:
+        analysis.cached[key] = layers(analysis.motion.mechanism)
+    found: Layers = analysis.cached[key]
     return found
 
 
