@@ -15,7 +15,7 @@ from linkwright.words import _
 class LayerCount(Metric):
     """The fewest layers above the frame's in which nothing collides over the cycle; infinite where there are none."""
 
-    label = _("layers of plates")
+    label = _("fewest layers")
     meaning = _("The fewest layers above that of the frame in which nothing collides over the cycle.")
 
     dimension = "dimensionless"
