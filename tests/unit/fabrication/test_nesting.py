@@ -51,7 +51,8 @@ def test_parts_keep_their_distance_and_stay_on_the_sheet(seed: int, sheet: tuple
     inner = box(SPACING, SPACING, sheet[0] - SPACING, sheet[1] - SPACING).buffer(1e-9)
     for on_sheet in sheets.values():
         assert all(inner.contains(each) for each in on_sheet)
-        assert min(one.distance(other) for one, other in combinations(on_sheet, 2)) >= SPACING * (1.0 - 1e-9)
+        nearest = min((one.distance(other) for one, other in combinations(on_sheet, 2)), default=SPACING)
+        assert nearest >= SPACING * (1.0 - 1e-9)
 
 
 def test_parts_are_laid_out_the_same_way_again() -> None:
