@@ -20,7 +20,7 @@ def problem_of(found: lw.Layers) -> Problem:
 
 def below_a_lid(problem: Problem, lid: int) -> Problem:
     """A problem whose plates all lie below a layer, by a cover that collides with nothing."""
-    name = problem.cover or "lid"
+    name = problem.cover or "lid above all"
     bodies = {**problem.bodies, name: (name,)}
     return replace(problem, bodies=bodies, demands=(*problem.demands, Fixed(name, lid)), cover=name)
 
