@@ -18,7 +18,7 @@ from linkwright.layering.heights import Layer, stacked
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.solids.solid import Solid, Solids
-from linkwright.words import Message, _, ngettext
+from linkwright.words import Message, _, pgettext
 
 
 @dataclass(frozen=True)
@@ -103,10 +103,10 @@ class Layers(Tabular, Frozen):
     @cached_property
     def layers(self) -> tuple[Layer, ...]:
         """The layers from below, with their plates and the heights of their faces."""
-        thickness = {name: self.solids.by_name[name].thickness for name in self.layer if name not in self.walls}
+        thickness = {name: self.solids.by_name[name].thickness for name in self.layer}
         construction = self.mechanism.construction
         washer = 0.0 if construction is None else construction.washer or 0.0
-        return stacked({name: self.layer[name] for name in thickness}, thickness, washer)
+        return stacked(self.layer, thickness, washer)
 
     @cached_property
     def height(self) -> Mapping[str, tuple[float, float]]:
@@ -199,11 +199,7 @@ class Layers(Tabular, Frozen):
             yield _("There are no layers, however many, in which nothing collides: all this cannot hold together.")
             yield from self.remedies
             return
-        yield ngettext(
-            "Nothing collides in {count} layer above that of the frame.",
-            "Nothing collides in {count} layers above that of the frame.",
-            count=self.count,
-        )
+        yield _("Layers above that of the frame: {count}; nothing collides.", count=self.count)
         if isfinite(self.min_gap):
             yield _("The smallest gap within a layer is {gap}.", gap=length_text(self.min_gap, 4))
         if not self.fewest:
@@ -233,7 +229,8 @@ class Layers(Tabular, Frozen):
         return Table(head, rows, "><>>>", self.mechanism.name, notes)
 
     def _pins_table(self) -> Table:
-        head = (_("pin"), _("through"), _("length"), _("heads"), _("between the plates"))
+        pin, through = pgettext("machine part", "pin"), pgettext("of a pin", "through")
+        head = (pin, through, _("length"), _("heads"), _("between the plates"))
         heads = {(0, 0): _("none"), (1, 0): _("below"), (0, 1): _("above"), (1, 1): _("below and above")}
         rows: list[list[Cell]] = [
             [

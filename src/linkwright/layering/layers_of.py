@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from itertools import combinations
 from typing import Any, get_args
 
 from linkwright.core.arguments import integer, one_of, real, require
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.formula.recently_made import Recent
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.layering.arrangement import Layers
@@ -62,7 +63,14 @@ def layers(
     (4, 4)
     """
     require(mechanism, Mechanism)
-    made = _as_asked(mechanism, supports, ends, fixed, clearance)
+    key = supports, ends, None if fixed is None else tuple(fixed.items()), clearance
+    return _recent.get(mechanism, key, lambda: _layers(_as_asked(mechanism, supports, ends, fixed, clearance)))
+
+
+_recent: Recent[Mechanism, Layers] = Recent(16)
+
+
+def _layers(made: Mechanism) -> Layers:
     construction = made.construction or Construction()
     found, motion = solids(made), solve_motion(made, failures="mark")
     if not motion.ok.any():
@@ -86,7 +94,7 @@ def layers(
     if best is not None:
         layer = {BASE: 0, **best.layer} if BASE in problem.walls else best.layer
         return Layers(made, found, layer, wanted, best.fewest, best.shortest, gaps=gaps, limits=limits)
-    contradicting = contradiction(problem, _pinned(found))
+    contradicting = contradiction(problem, _pinned(found, problem.walls))
     sentences = Sentences(made, problem)
     return Layers(
         made,
@@ -137,10 +145,11 @@ def _check_fixed(found: Solids, fixed: Mapping[str, int | None]) -> None:
             integer(f"layers: {name}", layer, 0)
 
 
-def _pinned(found: Solids) -> frozenset[frozenset[str]]:
-    """Pairs of plates on one pin."""
+def _pinned(found: Solids, walls: Collection[str]) -> frozenset[frozenset[str]]:
+    """Pairs of plates on one pin, which lie over each other; nothing lies over a wall."""
     pins = (each.plates for each in found.by_name.values() if each.sort == "pin")
-    return frozenset(frozenset(pair) for plates in pins for pair in combinations(plates, 2))
+    pairs = (pair for plates in pins for pair in combinations(plates, 2) if not {*pair} & {*walls})
+    return frozenset(map(frozenset, pairs))
 
 
 def _limits(motion: Motion) -> tuple[Message, ...]:
