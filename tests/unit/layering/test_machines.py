@@ -10,6 +10,8 @@ import linkwright as lw
 from linkwright.layering.demands import Demands
 from linkwright.layering.orders import any_layers
 from linkwright.layering.problem import Fixed, Problem
+from linkwright.layering.program import Answer, Program
+from linkwright.layering.search import arrange
 
 
 def problem_of(found: lw.Layers) -> Problem:
@@ -88,3 +90,47 @@ def test_plates_in_fixed_layers() -> None:
     with pytest.raises(lw.LinkwrightError) as wall:
         lw.layers(lw.load("gallery:crank_rocker"), fixed={"rocker": None})
     assert wall.value.code == "layers.all_of_link"
+
+
+HOUSING = """
+format: 1
+name: crank-rocker in a housing
+frame:
+  points: {{O: [0 m, 0 m], Q: [4 m, 0 m]}}
+  shape:
+    outline: [[-3 m, -3 m], [8 m, -3 m], [8 m, 4 m], [-3 m, 4 m]]
+    holes: [[[-2 m, -2 m], [{inside}, -2 m], [{inside}, 3 m], [-2 m, 3 m]]]
+links:
+  crank: {{points: [O, A], length: 1 m}}
+  coupler: {{points: [A, B], length: 4 m}}
+  rocker: {{points: [Q, B], length: 2.5 m}}
+assembly: {{B: left}}
+driver: {{turn: crank, about: O, speed: 1 rad/s}}
+construction: {{width: 200 mm, pin_radius: 50 mm, thickness: 50 mm, ends: flush, layers: {{frame: all}}}}
+"""
+
+
+def test_a_frame_in_all_layers_around_the_links() -> None:
+    """The tip of the rocker gets to x = 4.5 m at most where the law of cosines in the triangle Q, B, O has BO = 5 m:
+    4 - 2.5·cos(Q) with cos(Q) = (16 + 6.25 - 25)/20 = -0.1375, so 4.34375 m, and half a width more."""
+    found = lw.layers(lw.loads(HOUSING.format(inside="4.5 m")))
+    assert found.layer == {"frame": 0, "crank": 1, "coupler": 2, "rocker": 1} and found.span("frame") == (0, 2)
+    assert found.height["frame"] == pytest.approx((0.0, 0.15)) and found.z("pin O") == pytest.approx((0.0, 0.1))
+    assert found.min_gap == pytest.approx(4.5 - 4.34375 - 0.1)
+    none = lw.layers(lw.loads(HOUSING.format(inside="4.4 m")))
+    assert [each.first for each in none.conflicts] == ["frame", "frame"] and none.conflicts[0].second == ""
+    assert none.remedies[0] == "Enough alone: do not fix the layer of frame."
+
+
+def test_time_that_is_over(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Layers without proof are said to be so, and it is an error if there are none yet."""
+    machine = lw.load("gallery:crank_rocker")
+    monkeypatch.setattr(Program, "solve", lambda *_: Answer(None, proved=False))
+    found = lw.layers(machine)
+    assert not found.fewest and not found.shortest and found.count >= 4
+    assert not Oracle(machine, found.solids, 72).collisions(found.layer)
+    assert "no fewer layers do" in found.text() and "no pins are shorter" in found.text()
+    monkeypatch.setattr("linkwright.layering.layers_of.arrange", lambda problem: arrange(problem, -1.0))
+    with pytest.raises(lw.LinkwrightError) as error:
+        lw.layers(machine, ends="flush")
+    assert error.value.code == "layers.undecided"
