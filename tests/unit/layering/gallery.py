@@ -11,8 +11,8 @@ from math import inf
 from time import perf_counter
 from typing import get_args
 
+from tests.unit.layering.bounds import below_a_lid, problem_of
 from tests.unit.layering.overlaps import Oracle
-from tests.unit.layering.test_machines import below_a_lid, problem_of
 
 import linkwright as lw
 from linkwright.layering.orders import any_layers

@@ -1,30 +1,15 @@
 """Layers of whole machines against shapely at many positions and against all assignments tried."""
 
-from dataclasses import replace
 from math import inf
 
 import pytest
+from tests.unit.layering.bounds import below_a_lid, problem_of
 from tests.unit.layering.overlaps import Oracle
 
 import linkwright as lw
-from linkwright.layering.demands import Demands
 from linkwright.layering.orders import any_layers
-from linkwright.layering.problem import Fixed, Problem
 from linkwright.layering.program import Answer, Program
 from linkwright.layering.search import arrange
-
-
-def problem_of(found: lw.Layers) -> Problem:
-    motion = lw.solve_motion(found.mechanism, failures="mark")
-    construction = found.mechanism.construction
-    return Demands(found.solids, motion, {} if construction is None else construction.layers, 0.0).problem()
-
-
-def below_a_lid(problem: Problem, lid: int) -> Problem:
-    """A problem whose plates all lie below a layer, by a cover that collides with nothing."""
-    name = problem.cover or "lid above all"
-    bodies = {**problem.bodies, name: (name,)}
-    return replace(problem, bodies=bodies, demands=(*problem.demands, Fixed(name, lid)), cover=name)
 
 
 @pytest.mark.parametrize(
