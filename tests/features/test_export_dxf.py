@@ -160,3 +160,17 @@ def test_chinese_names_are_kept(tmp_path: Path) -> None:
     stream = io.StringIO()
     document.write(stream)
     assert "曲柄摇杆机构" in stream.getvalue()
+
+
+def test_outlines_are_closed_polylines_with_exact_arcs(tmp_path: Path) -> None:
+    """The ends of the crank are half circles (bulge 1) of half its width about its pins, in layer links; the rod is a
+    straight bar too."""
+    motion = store.motion("slider_crank_offset", 24)
+    document = read(motion, tmp_path, outlines=True)
+    bars = [each for each in on_layer(document, "links", "LWPOLYLINE") if each.closed]
+    arcs = [each.get_points("xyb") for each in bars]
+    halves = [(rows[k], rows[k + 1]) for rows in arcs for k in range(len(rows) - 1) if abs(rows[k][2] - 1.0) < 1e-9]
+    ends = {tuple(np.round([(a[0] + b[0]) / 2, (a[1] + b[1]) / 2], 6)) for a, b in halves}
+    for name in ("O", "A"):
+        place = (0.0, 0.0) if name == "O" else tuple(1000 * motion.point(name).position[0])
+        assert min(np.hypot(*(np.array(end) - place)) for end in ends) < 1e-5

@@ -116,6 +116,8 @@ def _stacked(item: Text) -> Iterator[str]:
 LAYERS = {"frame": 8, "links": 150, "joints": 1, "paths": 92, "dimensions": 42, "text": 7}
 #: Layer of each layer of the drawing on paper.
 _OF_PART = {"ground": "frame", "bodies": "links", "blocks": "joints", "tops": "joints"}
+#: The same of outlines, those of the frame in its own.
+_OF_OUTLINE = {"ground": "links", "bodies": "links", "blocks": "links", "pins": "joints"}
 #: Size of the numbers of dimensions on the paper.
 VALUE_SIZE = 12.0
 
@@ -123,10 +125,10 @@ VALUE_SIZE = 12.0
 class Sheet:
     """The model space of a drawing; lengths in metres become units by ``factor``."""
 
-    def __init__(self, document: Any, results: Results, index: int, factor: float) -> None:
+    def __init__(self, document: Any, results: Results, index: int, factor: float, *, outlines: bool = False) -> None:
         self.space = document.modelspace()
-        self.results, self.index, self.factor = results, index, factor
-        self.scene = laid_out(results.motion, index, inputs=False)
+        self.results, self.index, self.factor, self.outlines = results, index, factor, outlines
+        self.scene = laid_out(results.motion, index, inputs=False, outlines=outlines)
         self.unit = factor / self.scene.machine.view.scale
         self.height = CAPITAL * VALUE_SIZE * self.unit
         self.ink: list[Floats] = []
@@ -134,6 +136,9 @@ class Sheet:
 
     def machine(self) -> None:
         """Supports, links, blocks and pins."""
+        if self.outlines:
+            self._outlines()
+            return
         for part in self.scene.parts:
             if part.layer == "bodies":  # exact lines
                 colour = as_rgb(self.results.mechanism.link(part.carrier).colour)
@@ -145,6 +150,13 @@ class Sheet:
             for item in items:
                 self._item(item, part.carrier, _OF_PART[part.layer])
         self._pins()
+
+    def _outlines(self) -> None:
+        """The parts as they are made, with pitch circles, strands and crosses of pins."""
+        for part in self.scene.parts:
+            layer = "frame" if part.carrier == "frame" and part.layer == "ground" else _OF_OUTLINE[part.layer]
+            for item in part.shape.elements:
+                self._item(item, part.carrier, layer)
 
     def paths(self, names: Sequence[str] | None, *, spline: bool) -> None:
         """Paths of points, by default of all that move."""

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import pytest
+from tests.drawn_cams import GUIDED, SWINGING, text_of
 from tests.store import machine
 from tests.unit.solids.checks import faults
 
@@ -11,7 +12,7 @@ from linkwright.mechanism.construction import Construction
 from linkwright.solids.solids_of import solids
 
 #: Slots in moving links, double slides, crossed guides, racks, rings, cylinders.
-FEW = ("whitworth", "oldham_coupling", "internal_gear_pair", "rack_and_rocker")
+FEW = ("whitworth", "rack_and_rocker")
 
 
 @pytest.mark.parametrize("name", FEW)
@@ -56,3 +57,17 @@ def test_heads_are_left_out_where_another_pin_is_near() -> None:
     found = solids(machine("jaw_crusher_fourbar"))
     assert found.by_name["pin A"].head == found.by_name["pin O1"].head == 0.0
     assert any("heads" in each for each in found.notes)
+
+
+@pytest.mark.rotating
+@pytest.mark.parametrize(
+    ("held", "side", "touch"), [(GUIDED, "", "groove"), (SWINGING, "left", "flat"), (GUIDED, "", "knife")]
+)
+def test_followers_touch_their_cams_all_around(held: dict[str, str], side: str, touch: str) -> None:
+    """Rollers between the walls of a groove, faces and edges on the profile, without a gap or an overlap."""
+    made = lw.loads(text_of(held, side, touch, "clockwise"))
+    assert [*faults(made)] == []
+    found = solids(made)
+    follower = {"groove": "roller held", "flat": "face held", "knife": "edge held"}[touch]
+    assert any(follower in pair for pair in found.level)
+    assert any(follower in pair and {*pair} & {"cam", "cam cam"} for pair in found.joined)

@@ -44,6 +44,7 @@ def test_planes_of_pairs() -> None:
     assert sorted(map(sorted, suns)) == [["p", "q", "s"], ["q", "t"]]
 
 
+@pytest.mark.rotating
 def test_a_cam_is_level_with_its_roller() -> None:
     found = solids(machine("printing_press"))
     assert ("cam bell_crank", "roller lower_rack") in found.level

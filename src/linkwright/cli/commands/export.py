@@ -33,7 +33,7 @@ NAMES = (
 )
 #: Options of formats; one that a format lacks is refused with those that it has.
 OPTIONS = (
-    *("degrees", "unit", "position", "paths", "curve", "dimensions", "labels", "accelerations", "form"),
+    *("degrees", "unit", "position", "paths", "curve", "outlines", "dimensions", "labels", "accelerations", "form"),
     *(
         "name",
         "timestep",
@@ -100,6 +100,7 @@ linkwright export conveyor.yaml --to solution.py              Python program"""
     several=True,
 )
 @option("--curve", choices=("polyline", "spline"), help=_("paths in DXF as polylines or splines"))
+@flag("--outlines", _("dxf: parts as they are made, in place of symbols"), default=None)
 @switch("--dimensions", None, help=_("dimensions in DXF"))
 @switch("--labels", None, help=_("names of points in DXF"))
 @switch("--accelerations", None, help=_("acceleration equations in Modelica"))

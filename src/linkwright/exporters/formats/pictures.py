@@ -61,6 +61,7 @@ def dxf(
     position: int | None = None,
     paths: Sequence[str] | None = None,
     curve: str = "polyline",
+    outlines: bool = False,
     dimensions: bool = True,
     labels: bool = True,
 ) -> bytes:
@@ -68,8 +69,9 @@ def dxf(
 
     Coordinates are those of the frame, in ``unit`` (mm or m). Links, pins and paths are exact; the size of symbols
     goes with the machine. ``position``: index, default the first that was reached; ``paths``: points, default all
-    that move; ``curve``: ``polyline`` or ``spline`` through the solved positions; ``dimensions`` of
-    what places the points of the links and of the frame.
+    that move; ``curve``: ``polyline`` or ``spline`` through the solved positions; ``outlines``: of the parts as they
+    are made, exact in their arcs, in place of symbols; ``dimensions`` of what places the points of the links and of
+    the frame.
     """
     factor, code = check_unit(unit)
     if curve not in ("polyline", "spline"):
@@ -79,7 +81,7 @@ def dxf(
     index = _index(results, position)
     words = " ".join([results.mechanism.name, *results.mechanism.links, *results.motion.point_names()])
     document = new_document(LAYERS, words, code)
-    sheet = Sheet(document, results, index, factor)
+    sheet = Sheet(document, results, index, factor, outlines=outlines)
     set_dimension_style(document, sheet.height, decimals_for(factor))
     sheet.machine()
     sheet.paths(paths, spline=curve == "spline")
