@@ -6,7 +6,9 @@ holes are larger by the fit. A post is pressed into both its plates.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import cmath
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -85,6 +87,14 @@ def fixed_plates(layers: Layers, pin: Solid) -> frozenset[str]:
         return frozenset(pin.plates)
     lowest = min(pin.plates, key=lambda plate: layers.height[plate])
     return frozenset(plate for plate in pin.plates if solids[plate].carrier == solids[lowest].carrier)
+
+
+def level_turn(holes: Sequence[Hole]) -> float:
+    """Direction (rad, up to a right angle either way) of the line through the two holes that are farthest apart."""
+    pairs = [(a.centre, b.centre) for k, a in enumerate(holes) for b in holes[k + 1 :]]
+    a, b = max(pairs, key=lambda pair: abs(pair[1] - pair[0]), default=(0j, 1 + 0j))
+    turn = cmath.phase(b - a)
+    return turn if -0.5 * math.pi < turn <= 0.5 * math.pi else turn - math.copysign(math.pi, turn)
 
 
 def check_holes(part: Part) -> None:

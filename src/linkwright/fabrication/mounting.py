@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
+from linkwright.fabrication.holes import level_turn
 from linkwright.fabrication.part import Hole
 from linkwright.pictures.picture import round_up
 from linkwright.shapes.distance import contains
-from linkwright.shapes.shape import Shape
+from linkwright.shapes.shape import Piece, Shape
 
 #: Radius of a mounting hole as a share of that of the smallest pin, and the wall around it as a share of its radius.
 RADIUS, WALL = 0.75, 1.0
@@ -26,17 +29,24 @@ def mounting_holes(shape: Shape, holes: Sequence[Hole], heads: float) -> tuple[H
     if not holes:
         return ()
     radius = RADIUS * min(each.radius for each in holes)
-    places = _places(shape, radius)
+    origin, way = holes[0].centre, cmath.exp(1j * level_turn(holes))
+    level = Shape(tuple(replace(each, rings=_turned(each, origin, way)) for each in shape.pieces))
+    places = origin + way * _places(level, radius)
     for hole in holes:
         places = places[np.abs(places - hole.centre) > heads * hole.radius + (1.0 + WALL) * radius]
     found: list[complex] = []
-    for corner in _corners(shape):
+    for corner in (origin + way * each for each in _corners(level)):
         free = places
         for each in found:
             free = free[np.abs(free - each) > 2.0 * (1.0 + WALL) * radius]
         if len(free):
             found.append(complex(free[np.abs(free - corner).argmin()]))
     return tuple(Hole("", each, radius, False) for each in found)
+
+
+def _turned(piece: Piece, origin: complex, way: complex) -> tuple[Complexes, ...]:
+    """The rings of a piece in axes about a hole, the farthest other one level with it."""
+    return tuple((ring - origin) * way.conjugate() for ring in piece.rings)
 
 
 def _box(shape: Shape) -> tuple[complex, complex]:

@@ -12,6 +12,7 @@ from linkwright.core.arrays import Complexes, Floats
 from linkwright.core.quantity import number
 from linkwright.errors import require_language, speaker
 from linkwright.fabrication.cut_lines import CutLines, cut_lines
+from linkwright.fabrication.holes import level_turn
 from linkwright.fabrication.part import Part
 from linkwright.fabrication.parts_list import called, hole_name
 from linkwright.pictures.drawing import Drawing, Sketch
@@ -19,8 +20,8 @@ from linkwright.pictures.picture import Vec
 from linkwright.pictures.svg import element, path_data
 from linkwright.words import _
 
-#: Longest side of an outline on the paper, and the distance of dimension lines from it.
-ACROSS, FIRST = 460.0, 30.0
+#: Length and height of an outline on the paper at most, width of the paper, and distance of dimension lines.
+ACROSS, UP, WIDE, FIRST = 300.0, 230.0, 440.0, 28.0
 #: How far an arc may be from its chords on the paper, and how far centre lines stick out of a hole.
 SMOOTH, CROSS = 0.05, 5.0
 #: Places nearer to each other than this share of a plate's length have one dimension.
@@ -32,10 +33,10 @@ class _Paper:
 
     def __init__(self, part: Part) -> None:
         self.part = part
-        self.turn = _slope([each.centre for each in part.holes])
+        self.turn = level_turn([each for each in part.holes if each.pin] or part.holes)
         lines = cut_lines(part).moved(-self.turn, 0j)
         low, high = lines.box
-        self.scale = ACROSS / max((high - low).real, (high - low).imag)
+        self.scale = min(ACROSS / (high - low).real, UP / (high - low).imag)
         self.origin, self.lines = low, lines
         self.width, self.height = self.scale * (high - low).real, self.scale * (high - low).imag
 
@@ -65,17 +66,10 @@ def draw_part(part: Part, language: str = "en") -> Drawing:
     thickness = _("{name}, t = {thickness} mm", name=title, thickness=number(part.length, "length"))
     sketch.write_names()
     sketch.write_below([translate(thickness)])
+    left, top, right, _bottom = sketch.box
+    missing = 0.5 * max(WIDE - (right - left), 0.0)
+    sketch.extent.append(np.array([(left - missing, top), (right + missing, top)]))  # letters of one size in all
     return sketch.drawing(title)
-
-
-def _slope(centres: list[complex]) -> float:
-    """Direction of the line through the two holes that are farthest apart, rad."""
-    pairs = [(a, b) for k, a in enumerate(centres) for b in centres[k + 1 :]]
-    if not pairs:
-        return 0.0
-    a, b = max(pairs, key=lambda pair: abs(pair[1] - pair[0]))
-    turn = cmath.phase(b - a)
-    return turn if -0.5 * math.pi < turn <= 0.5 * math.pi else turn - math.copysign(math.pi, turn)
 
 
 def _outline(sketch: Sketch, paper: _Paper) -> None:
@@ -106,7 +100,7 @@ def _holes(sketch: Sketch, paper: _Paper) -> None:
         reach = paper.scale * hole.radius + CROSS
         sketch.line([(x - reach, y), (x + reach, y)], "lw-pitch")
         sketch.line([(x, y - reach), (x, y + reach)], "lw-pitch")
-        label = f"{hole_name(hole)} Ø{number(2.0 * hole.radius, 'length', 5)}".strip()
+        label = f"{hole_name(hole)} Ø {number(2.0 * hole.radius, 'length', 5)}".strip()
         near = reach + 6.0
         sketch.name(label, (x, y - near), (x + near, y - near), (x - near, y - near), (x, y + near), style="lw-value")
     across = _distinct([x for x, _y in at.values()], ALIKE * ACROSS)

@@ -26,7 +26,7 @@ class SheetSize(Field):
         text = node.text if isinstance(node, Scalar) else ""
         sides = re.split(r"\s*[x×*]\s*", text.strip(), flags=re.IGNORECASE)
         if not isinstance(node, Scalar) or len(sides) != 2 or not all(sides):
-            problem = _('"{text}" is not the size of a sheet', text=text[:60], code="cut.no_sheet_size")
+            problem = _('"{text}" is not the size of a sheet', text=text[:60])
             reader.error(node, place, problem, _("write width and height with an x between: 600x400"), "syntax")
             return None
         written = (f"{each} mm" if _NUMBER.fullmatch(each) else each for each in sides)
