@@ -63,10 +63,13 @@ def default_path(source: str, suffix: str) -> Path:
     return Path(f"{Path(source.removeprefix('gallery:')).stem}{suffix}")
 
 
-def write_diagram(found: PlotMixin, options: Options, session: Session, *, kind: str | None = None) -> None:
-    """Draws a diagram of a result where ``--plot`` asks for one, the usual one unless a ``kind`` is named."""
-    if options.plot is not None:
-        path = Path(options.plot)
+def write_diagram(
+    found: PlotMixin, options: Options, session: Session, *, kind: str | None = None, name: str = "plot"
+) -> None:
+    """Draws a diagram of a result where the option of that name asks for one, the usual one unless a ``kind`` is
+    named."""
+    if (target := getattr(options, name)) is not None:
+        path = Path(target)
         content = found.plot(kind=kind, language=session.language).content(path.suffix.lower())
         atomic_write(path, content, force=options.force)
 

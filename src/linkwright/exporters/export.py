@@ -83,7 +83,8 @@ def export(
             ``json`` (its ``data()``), ``markdown``, ``html``.
         path: the file; its ending chooses the format.
         format: ``csv``, ``xlsx``, ``json``, ``markdown``, ``parquet``, ``dxf``, ``mjcf``, ``modelica``, ``linkage``,
-            ``pmks_plus``, ``python``, ``urdf``, ``usd``, ``svg``, ``png``, ``pdf``, where the ending does not say it.
+            ``pmks_plus``, ``python``, ``urdf``, ``usd``, ``svg``, ``png``, ``pdf``, ``stl``, ``3mf``, ``step``, where
+            the ending does not say it.
         force: replace a file that exists.
         steps: positions over the cycle, for a mechanism.
         language: ``en`` or ``zh``, of headings and drawings.

@@ -14,7 +14,7 @@ from linkwright.core.arguments import STEPS, require
 from linkwright.core.arrays import Floats
 from linkwright.core.outputs import KINDS, NAMED
 from linkwright.core.table import Column
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.kinetostatics.forces import Forces
@@ -84,6 +84,34 @@ class Results:
                 )
             )
         return int(self.motion.ok.argmax())
+
+    def index(self, position: int | None) -> int:
+        """Index of a position, of the first that was reached where none is named.
+
+        Raises LinkwrightError where there is no such position, or it was not reached.
+        """
+        if position is None:
+            return self.first_ok()
+        steps = self.motion.steps
+        if not -steps <= position < steps:
+            raise RequestError(
+                _(
+                    "position {position} does not exist; there are the positions 0 to {last}",
+                    code="export.no_position",
+                    position=position,
+                    last=steps - 1,
+                )
+            )
+        if not self.motion.ok[position]:
+            raise LinkwrightError(
+                _(
+                    "position {position} cannot be drawn: {sentence}",
+                    code="export.not_drawn",
+                    position=position,
+                    sentence=self.motion.outcomes[position].sentence,
+                )
+            )
+        return position % steps
 
 
 def seconds(motion: Motion) -> float:

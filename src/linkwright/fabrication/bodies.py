@@ -56,3 +56,8 @@ def colours(cut: CutParts) -> dict[str, str]:
         else:
             found[part.name] = FRAME if carrier == "frame" else next(free)
     return found
+
+
+def pale(colour: str, share: float) -> str:
+    """A colour of which a share is left on its way to white."""
+    return "#" + "".join(f"{round(255 - share * (255 - int(colour[k : k + 2], 16))):02x}" for k in (1, 3, 5))

@@ -13,8 +13,8 @@ from linkwright.core.arrays import Complexes
 from linkwright.shapes.loop import Loop
 
 Place = TypeVar("Place", complex, Complexes)
-#: Largest distance between an arc and the chords that stand for it, m.
-FLATTENING = 1e-5
+#: Largest distance between an arc and the chords that stand for it: m, and as a share of half the outline's extent.
+FLATTENING, ROUND = 1e-5, 2e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,8 +29,9 @@ class Section:
     @cached_property
     def extent(self) -> float:
         """Width and height of the outline together, m, by which sections are told wider and narrower."""
-        places = np.concatenate([loop.points(FLATTENING) for loop in self.loops])
-        return float(np.ptp(places.real) + np.ptp(places.imag))
+        lows, highs = zip(*(loop.box for loop in self.loops), strict=True)
+        width = max(each.real for each in highs) - min(each.real for each in lows)
+        return float(width + max(each.imag for each in highs) - min(each.imag for each in lows))
 
 
 @dataclass(frozen=True)
@@ -61,18 +62,24 @@ class Body:
     colour: str = "#9fb4c8"
 
 
+def corners(loop: Loop, tolerance: float = FLATTENING) -> Complexes:
+    """A polygon for a loop, (k,), no farther from its arcs than a tolerance (m), and finer where it is small."""
+    low, high = loop.box
+    return loop.points(min(tolerance, ROUND * 0.5 * max((high - low).real, (high - low).imag)))
+
+
 def regions(loops: Sequence[Loop]) -> list[tuple[Loop, ...]]:
     """Outer loops, each with the inner ones that lie within it."""
     found = [[loop] for loop in loops if loop.area > 0]
     for loop in loops:
         if loop.area <= 0:
             start = loop.edges[0].start
-            around = [each for each in found if _inside(start, each[0].points(FLATTENING))]
+            around = [each for each in found if _inside(start, corners(each[0]))]
             min(around, key=lambda each: each[0].area).append(loop)
     return [tuple(each) for each in found]
 
 
-def _inside(place: complex, corners: Complexes) -> bool:
+def _inside(place: complex, polygon: Complexes) -> bool:
     """Whether a place lies within a polygon: by the turns of its corners about the place."""
-    way = corners - place
+    way = polygon - place
     return bool(abs(np.angle(np.roll(way, -1) / way).sum()) > np.pi)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from linkwright.core.arguments import require
-from linkwright.core.attached import attached
+from linkwright.core.attached import PlotMixin, attached
 from linkwright.core.table import Table, Tabular
 from linkwright.errors import LinkwrightError
 from linkwright.fabrication.holes import Pose
@@ -24,7 +24,7 @@ from linkwright.words import _
 
 
 @dataclass(frozen=True, eq=False)
-class CutParts(Tabular):
+class CutParts(Tabular, PlotMixin):
     """The ``parts`` of a machine in the order of the list: plates from below, pins, spacers, washers."""
 
     mechanism: Mechanism

@@ -12,6 +12,7 @@ from linkwright.fabrication.cut_lines import CutLines, cut_lines
 from linkwright.fabrication.dxf import dxf_of
 from linkwright.fabrication.names import file_names
 from linkwright.fabrication.sheets import Sheet, sheets_of
+from linkwright.fabrication.solid_files import SOLIDS, solid_files
 from linkwright.fabrication.svg import svg_of
 from linkwright.filesystem import write_together
 from linkwright.registry import offered
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
     from linkwright.fabrication.cut_parts import CutParts
 
 FORMS = ("dxf", "svg")
+#: Forms in which files may be written: drawings of plates, and solids of all parts.
+ALL_FORMS = (*FORMS, *SOLIDS)
 _LISTS = ("csv", "xlsx")
 
 
@@ -51,14 +54,14 @@ def files_of(
     """The contents of the files by their names."""
     require_language(language)
     for form in forms:
-        if form not in FORMS:
+        if form not in ALL_FORMS:
             raise RequestError(
                 _(
-                    'plates are drawn as {forms}, not as "{form}"; {hint}',
+                    'parts are written as {forms}, not as "{form}"; {hint}',
                     code="cut.no_form",
-                    forms=FORMS,
+                    forms=ALL_FORMS,
                     form=form,
-                    hint=offered(form, FORMS, _("use one of these")),
+                    hint=offered(form, ALL_FORMS, _("use one of these")),
                 )
             )
     construction = found.mechanism.construction
@@ -70,6 +73,9 @@ def files_of(
     names = file_names(lines, taken=(each.name for each in sheets))
     contents: dict[str, bytes] = {}
     for form in forms:
+        if form in SOLIDS:
+            contents |= solid_files(found, form)
+            continue
         contents |= {f"{names[name]}.{form}": _drawn(form, [each], name) for name, each in lines.items()}
         contents |= {f"{each.name}.{form}": _drawn(form, each.lines, each.name, each) for each in sheets}
     for form in _LISTS:

@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats, Integers
 from linkwright.exporters.export import package
-from linkwright.fabrication.body import FLATTENING, Body, Section
+from linkwright.fabrication.body import FLATTENING, Body, Section, corners
 from linkwright.words import _
 
 
@@ -31,17 +31,17 @@ class Mesh:
 def mesh_of(body: Body, tolerance: float = FLATTENING) -> Mesh:
     """The surface of a body in its own axes, with arcs as chords within a tolerance, m."""
     rims: list[_Rims] = []
-    corners, triangles, count = [], [], 0
+    places, triangles, count = [], [], 0
     for section in body.sections:
-        rims.append(_Rims(section, [loop.points(tolerance) for loop in section.loops], count))
-        places = np.concatenate(rims[-1].rings)
+        rims.append(_Rims(section, [corners(loop, tolerance) for loop in section.loops], count))
+        plane = np.concatenate(rims[-1].rings)
         for height in (section.low, section.high):
-            corners.append(np.column_stack([places.real, places.imag, np.full(len(places), height)]))
+            places.append(np.column_stack([plane.real, plane.imag, np.full(len(plane), height)]))
         triangles.append(_walls(rims[-1]))
-        count += 2 * len(places)
+        count += 2 * len(plane)
     for below, above in zip((None, *rims), (*rims, None), strict=True):
         triangles.append(_level(below, above))
-    return Mesh(np.concatenate(corners), np.concatenate(triangles))
+    return Mesh(np.concatenate(places), np.concatenate(triangles))
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,50 +2,55 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from linkwright.fabrication.body import Pose
 from linkwright.fabrication.columns import Bar, Column, Development
 from linkwright.fabrication.cut_parts import CutParts
+from linkwright.fabrication.holes import Pose, axis, hubs_around
 from linkwright.fabrication.part import Part
-from linkwright.shapes.boundary import boundary
 from linkwright.solids.solid import Solid, Solids
 
 
 @dataclass(frozen=True, eq=False)
 class Axis:
-    """A pin or post with the washers and spacers on it, or a block, or the middle of a plate without either.
+    """A pin or post, a block, or the middle of a plate without either: ``solid``; the ``plates`` in its section.
 
-    ``plates``: those in its section; ``at``: its place in the axes of its ``carrier``, m.
+    ``pin``: the part that it is; ``rings``: washers and spacers on it; ``hubs``: posts around it; ``blocks`` through
+    which it goes.
     """
 
     solid: Solid
     plates: tuple[str, ...]
-    pin: Part | None
-    rings: tuple[Part, ...]
-    blocks: tuple[Solid, ...]
+    pin: Part | None = None
+    rings: tuple[Part, ...] = ()
+    hubs: tuple[Part, ...] = ()
+    blocks: tuple[Solid, ...] = ()
 
     @property
     def at(self) -> complex:
         """Its place in the axes of the link that carries it, m."""
-        return self.solid.shape.bound[0]
+        return axis(self.solid) if self.pin is not None else self.solid.shape.bound[0]
 
 
 @dataclass(frozen=True, eq=False)
 class Stack:
-    """The parts of a machine along its axes; ``poses``: where the links are, by which axes are sorted."""
+    """The parts of a machine along its axes."""
 
     cut: CutParts
-    poses: Mapping[str, Pose]
 
     @property
     def solids(self) -> Solids:
         """All that takes room."""
         return self.cut.layers.solids
+
+    @cached_property
+    def pose(self) -> Pose:
+        """Where the links are, by which axes are sorted."""
+        return Pose.of(self.cut.layers)
 
     @cached_property
     def plates(self) -> dict[str, Part]:
@@ -55,24 +60,30 @@ class Stack:
     @cached_property
     def axes(self) -> list[Axis]:
         """Pins, posts, blocks without pins, and the middles of all other plates, from left to right."""
-        parts = {part.name: part for part in self.cut.parts}
         every = self.solids.by_name.values()
-        found = []
-        for solid in every:
-            if solid.sort in ("pin", "post"):
-                blocks = tuple(each for each in every if each.sort == "block" and self._within(solid, each))
-                rings = tuple(part for part in parts.values() if any(place.on == solid.name for place in part.places))
-                rings = tuple(part for part in rings if part.sort in ("spacer", "washer"))
-                plates = (*solid.plates, *(plate for each in blocks for plate in self._around(each)))
-                found.append(Axis(solid, tuple(dict.fromkeys(plates)), parts.get(solid.name), rings, blocks))
-        pinned = {each.name for axis in found for each in axis.blocks}
+        round_solids = [solid for solid in every if solid.sort in ("pin", "post")]
+        hubs = {pin.name: hubs_around(self.cut.layers, self.pose, pin) for pin in round_solids if pin.sort == "pin"}
+        inner = {hub.name for each in hubs.values() for hub in each}
+        found = [self._pinned(pin, hubs.get(pin.name, [])) for pin in round_solids if pin.name not in inner]
+        pinned = {block.name for each in found for block in each.blocks}
         for solid in every:
             if solid.sort == "block" and solid.name not in pinned:
-                found.append(Axis(solid, self._around(solid), None, (), (solid,)))
-        held = {plate for axis in found for plate in axis.plates}
-        alone = (solid for solid in every if solid.is_plate and solid.name not in held)
-        found += [Axis(solid, (solid.name,), None, (), ()) for solid in alone]
-        return sorted(found, key=lambda axis: self.poses[axis.solid.carrier].of(axis.at).real)
+                found.append(Axis(solid, self._around(solid), blocks=(solid,)))
+        held = {plate for each in found for plate in each.plates}
+        found += [Axis(solid, (solid.name,)) for solid in every if solid.is_plate and solid.name not in held]
+        return sorted(found, key=lambda each: self.pose.world(each.solid.carrier, each.at).real)
+
+    def _pinned(self, pin: Solid, hubs: Sequence[Solid]) -> Axis:
+        """The axis of a pin or post."""
+        parts = {part.name: part for part in self.cut.parts}
+        blocks = tuple(
+            each for each in self.solids.by_name.values() if each.sort == "block" and self._within(pin, each)
+        )
+        rings = tuple(part for part in self.cut.parts if part.sort in ("spacer", "washer"))
+        rings = tuple(part for part in rings if any(place.on == pin.name for place in part.places))
+        plates = (*pin.plates, *(plate for each in (*hubs, *blocks) for plate in self._around(each)))
+        around = tuple(parts[hub.name] for hub in hubs)
+        return Axis(pin, tuple(dict.fromkeys(plates)), parts[pin.name], rings, around, blocks)
 
     def _within(self, pin: Solid, block: Solid) -> bool:
         """Whether a pin goes through a block."""
@@ -82,7 +93,7 @@ class Stack:
         return pair in self.solids.joined and pin.carrier == block.carrier
 
     def _around(self, block: Solid) -> tuple[str, ...]:
-        """The plates in a section through a block: its own and that of its guide."""
+        """The plates in a section through a block or hub: its own and that of its guide."""
         guides = [a if b == block.name else b for a, b in self.solids.level if block.name in (a, b)]
         return tuple(dict.fromkeys((*block.plates, *guides)))
 
@@ -90,21 +101,21 @@ class Stack:
         """Lower and upper face of a plate, m."""
         return self.cut.layers.height[plate]
 
-    def reach(self, axis: Axis) -> tuple[float, float]:
+    def reach(self, at: Axis) -> tuple[float, float]:
         """Between which heights an axis takes room, m, with the heads of its pin."""
-        ends = [height for plate in axis.plates for height in self.height(plate)]
-        if axis.pin is not None:
-            z = axis.pin.places[0].z
-            ends += [z + each for prism in axis.pin.prisms() for each in (prism.low, prism.high)]
+        ends = [height for plate in at.plates for height in self.height(plate)]
+        for part in (at.pin, *at.hubs):
+            if part is not None:
+                ends += [part.places[0].z + each for prism in part.prisms() for each in (prism.low, prism.high)]
         return min(ends), max(ends)
 
     def development(self) -> Development:
         """The axes side by side."""
-        columns = [Column(axis.solid.name, *self.reach(axis)) for axis in self.axes]
+        columns = [Column(each.solid.name, *self.reach(each)) for each in self.axes]
         bars = []
         for name in self.plates:
             low, high = self.height(name)
-            own = {k for k, axis in enumerate(self.axes) if name in axis.plates}
+            own = {k for k, each in enumerate(self.axes) if name in each.plates}
             bar = Bar(name, low, high, frozenset(own))
             if self.solids.by_name[name].sort == "frame":
                 bar = Bar(name, low, high, frozenset(own | set(self._free(bar, columns))))
@@ -115,17 +126,17 @@ class Stack:
         """The columns that leave room for the frame."""
         return (k for k, column in enumerate(columns) if not frame.meets(column))
 
-    def half_width(self, plate: str, axis: Axis) -> float:
+    def half_width(self, plate: str, on: Axis) -> float:
         """How far the material of a plate reaches around an axis, m."""
-        place = axis.at
-        if any((min(each.name, plate), max(each.name, plate)) in self.solids.level for each in axis.blocks):
-            return max(map(across, axis.blocks)) + 0.5 * float(np.diff(self.height(plate))[0])
-        if axis.solid.carrier != self.solids.by_name[plate].carrier:
-            holes = [hole.centre for hole in self.plates[plate].holes if hole.pin == axis.solid.name]
+        place = on.at
+        if any((min(each.name, plate), max(each.name, plate)) in self.solids.level for each in on.blocks):
+            return max(map(across, on.blocks)) + 0.5 * float(np.diff(self.height(plate))[0])
+        if on.solid.carrier != self.solids.by_name[plate].carrier:
+            holes = [hole.centre for hole in self.plates[plate].holes if hole.pin == on.solid.name]
             if not holes:
                 return 0.5 * float(np.diff(self.height(plate))[0])
             place = holes[0]
-        outer = [loop for loop in boundary(self.plates[plate].shape) if loop.area > 0]
+        outer = [loop for loop in self.plates[plate].loops if loop.area > 0]
         return min(edge.distance(place) for loop in outer for edge in loop.edges)
 
 

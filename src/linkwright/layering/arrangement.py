@@ -10,6 +10,7 @@ from math import inf, isfinite
 from typing import Any
 
 from linkwright.collisions.gaps import Gap
+from linkwright.core.attached import PlotMixin
 from linkwright.core.data import Frozen
 from linkwright.core.quantity import length_text, shown
 from linkwright.core.table import Amount, Cell, Table, Tabular
@@ -67,7 +68,7 @@ class Pin:
 
 
 @dataclass(frozen=True, eq=False)
-class Layers(Tabular, Frozen):
+class Layers(Tabular, PlotMixin, Frozen):
     """The fewest layers in which nothing of a machine collides over its cycle, with the shortest pins.
 
     ``layer`` of every plate by name, that of the frame 0 (a frame in all layers counts from there); ``fewest`` and

@@ -11,7 +11,7 @@ from linkwright.fields.base import Quantity
 from linkwright.fields.sheet_size import SheetSize
 from linkwright.words import _
 
-FORMS = {"dxf": ("dxf",), "svg": ("svg",), "both": ("dxf", "svg")}
+FORMS = ("dxf", "svg", "stl", "3mf", "step")
 
 
 @command(
@@ -21,17 +21,25 @@ FORMS = {"dxf": ("dxf",), "svg": ("svg",), "both": ("dxf", "svg")}
 Prints the list of parts of a machine: plates with their holes, pins, spacers and
 washers, with sizes, material, layer and mass. --output writes a drawing of every
 plate, 1:1 in mm, with holes and engraved names in layers of their own, sheets with
-all plates nested on them, and the list of parts as CSV and XLSX. The section
+all plates nested on them, and the list of parts as CSV and XLSX; --format stl, 3mf
+or step writes all parts as solids, each by itself and together. The section
 "construction" of the model says of what and how the parts are made."""
     ),
     """\
 linkwright cut gallery:theo_jansen_leg
 linkwright cut leg.yaml --output leg-parts --sheet 600x400 --kerf 0.2mm
-linkwright cut press.yaml --output press-parts --format dxf --lang zh""",
+linkwright cut press.yaml --output press-parts --format dxf --lang zh
+linkwright cut press.yaml --output press-parts --format stl step""",
 )
 @model
 @option("--output", "FOLDER", help=_("folder for the drawings, sheets and the list of parts"))
-@option("--format", choices=(*FORMS,), default="both", help=_("form of the drawings: dxf, svg or both (default)"))
+@option(
+    "--format",
+    several=True,
+    choices=FORMS,
+    default=("dxf", "svg"),
+    help=_("forms of the files (default: dxf svg); stl, 3mf and step have all parts as solids"),
+)
 @option(
     "--sheet",
     "WxH",
@@ -60,7 +68,7 @@ def run(options: Options, session: Session) -> int:
         written = save(
             found,
             options.output,
-            FORMS[options.format],
+            options.format,
             session.language,
             kerf=options.kerf,
             sheet=options.sheet,

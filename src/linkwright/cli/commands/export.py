@@ -13,6 +13,7 @@ from linkwright.fields.tables import Integer
 from linkwright.words import _
 
 NAMES = (
+    "3mf",
     "csv",
     "dxf",
     "html",
@@ -26,6 +27,8 @@ NAMES = (
     "pmks_plus",
     "png",
     "python",
+    "step",
+    "stl",
     "svg",
     "urdf",
     "usd",
@@ -63,7 +66,8 @@ writes the results to a file; the file's ending chooses the format.
   .md             table of the metrics             .py     Python program that solves the machine
   .linkage2       Linkage file of the motion       .pmksplus  share link of PMKS+
   .urdf           URDF robot, with its loops in a file beside it
-  .usda           USD scene with physics: bodies, joints, drives"""
+  .usda           USD scene with physics: bodies, joints, drives
+  .stl .3mf .step all parts as solids in their layers, as linkwright cut makes them"""
     ),
     _(
         """\
@@ -91,7 +95,10 @@ linkwright export conveyor.yaml --to solution.py              Python program"""
 @flag("--degrees", _("csv, xlsx: angles in degrees"), default=None)
 @option("--unit", choices=("mm", "m"), help=_("dxf: unit of the drawing, mm (default) or m"))
 @option(
-    "--position", "N", of=Integer(), help=_("dxf and pictures: number of the position that is drawn (default: 0)")
+    "--position",
+    "N",
+    of=Integer(),
+    help=_("dxf, solids and pictures: number of the position that is drawn (default: 0)"),
 )
 @option(
     "--paths",

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from linkwright.cli.command import command
 from linkwright.cli.errors import UsageError
-from linkwright.cli.options import RESULTS, Options, force, model, option, output
+from linkwright.cli.options import PICTURES, RESULTS, Options, fonts, force, model, option, output
 from linkwright.cli.session import Session
 from linkwright.fields.base import Quantity
 from linkwright.fields.tables import PAIRS
@@ -30,7 +30,8 @@ the pairs that contradict, where in the cycle they meet, and what would help."""
     """\
 linkwright layers gallery:theo_jansen_leg
 linkwright layers press.yaml --supports both --ends flush
-linkwright layers press.yaml --fix crank=1 "guide slide=2" --output layers.csv""",
+linkwright layers press.yaml --fix crank=1 "guide slide=2" --output layers.csv
+linkwright layers gallery:theo_jansen_leg --plot side.svg --exploded exploded.svg""",
 )
 @model
 @option(
@@ -54,10 +55,13 @@ linkwright layers press.yaml --fix crank=1 "guide slide=2" --output layers.csv""
     help=_("smallest gap within a layer (default: that of the section construction, else 0)"),
 )
 @output(RESULTS, _("write the layers to a .csv or .json file (SI units), or a .xlsx, .md or .html file"))
+@output(PICTURES, _("draw the section through the pins in a .svg, .pdf or .png file"), name="--plot")
+@output(PICTURES, _("draw the parts taken apart in a .svg, .pdf or .png file"), name="--exploded")
+@fonts
 @force
 def run(options: Options, session: Session) -> int:
     """Prints or writes the layers; 1 where there are none."""
-    from linkwright.cli.files import present, read_model
+    from linkwright.cli.files import present, read_model, write_diagram
     from linkwright.layering.layers_of import layers
 
     mechanism, _findings = read_model(options.file, session)
@@ -68,7 +72,10 @@ def run(options: Options, session: Session) -> int:
         fixed=_layers(options.fix),
         clearance=options.clearance,
     )
-    present(found, options, session)
+    if found.conflicts:
+        options.plot = options.exploded = None
+    write_diagram(found, options, session, kind="exploded", name="exploded")
+    present(found, options, session, options.exploded)
     return 1 if found.conflicts else 0
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from linkwright.core.table import Tabular
-from linkwright.errors import LinkwrightError, RequestError
+from linkwright.errors import RequestError
 from linkwright.exporters.dxf import (
     LAYERS,
     Sheet,
@@ -78,7 +78,7 @@ def dxf(
         raise RequestError(
             _('a path is a "polyline" or a "spline", not a "{curve}"', code="export.bad_curve", curve=curve)
         )
-    index = _index(results, position)
+    index = results.index(position)
     words = " ".join([results.mechanism.name, *results.mechanism.links, *results.motion.point_names()])
     document = new_document(LAYERS, words, code)
     sheet = Sheet(document, results, index, factor, outlines=outlines)
@@ -89,31 +89,6 @@ def dxf(
         sheet.dimensions()
     sheet.labels(names=labels)
     return content_of(document)
-
-
-def _index(results: Results, position: int | None) -> int:
-    if position is None:
-        return results.first_ok()
-    steps = results.motion.steps
-    if not -steps <= position < steps:
-        raise RequestError(
-            _(
-                "position {position} does not exist; there are the positions 0 to {last}",
-                code="export.no_position",
-                position=position,
-                last=steps - 1,
-            )
-        )
-    if not results.motion.ok[position]:
-        raise LinkwrightError(
-            _(
-                "position {position} cannot be drawn: {sentence}",
-                code="export.not_drawn",
-                position=position,
-                sentence=results.motion.outcomes[position].sentence,
-            )
-        )
-    return position % steps
 
 
 FORMATS.register("dxf")(Format((".dxf",), dxf))

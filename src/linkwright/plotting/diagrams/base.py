@@ -186,12 +186,13 @@ def plot(
             ``shaking``, ``velocity_polygon``, ``acceleration_polygon``, ``force_polygon``, ``free_bodies``,
             ``flow_chart``, ``drive_margin``, ``operating_points``. Of a comparison
             ``comparison`` (the default) or ``pivot_hodograph``, of a sensitivity ``sensitivity`` or
-            ``sensitivity_curves``; most other results have one kind each.
+            ``sensitivity_curves``, of layers and parts ``side`` (the default) or ``exploded``; most other results
+            have one kind each.
         of: outputs, links, points or joints that it is about: ``"jaw"``, ``"guide"``, ``"C"``, ``"jaw.D.x"``;
             metrics or curves of a study, a comparison or a table.
         joint, on: the joint of reactions and hodographs, and the link on which its force acts.
         axes: ``"frame"``, or a link in whose axes forces are resolved.
-        at: the input of a polygon: rad, m or s, or a text with its unit (``"30 deg"``).
+        at: the input of a polygon or an exploded view: rad, m or s, or a text with its unit (``"30 deg"``).
         fluctuation: required δ of the flywheel in ``speed``, 0.02 unless given.
         static: leave the inertia forces out; of forces that are solved here.
         marks: limit positions, peaks, phases and inputs along curves.
@@ -230,7 +231,7 @@ def plot(
         joint=joint,
         on=on,
         axes=axes,
-        at=_place(at, sources[0]) if sources else None,
+        at=_place(at, sources[0] if sources else _machine_of(result)),
         fluctuation=FLUCTUATION if fluctuation is None else fluctuation,
         marks=marks,
         title=None if title is None else printable(str(title)).replace("\t", " "),
@@ -341,10 +342,16 @@ def _usual(result: _Solved) -> str:
     return "speed" if isinstance(first, SteadyRunning) else "torque" if isinstance(first, Forces) else "sva"
 
 
-def _place(at: float | str | None, source: PlotInput) -> float | None:
+def _machine_of(result: object) -> PlotInput | None:
+    """The machine of a result that has one."""
+    mechanism = getattr(result, "mechanism", None)
+    return PlotInput(mechanism) if isinstance(mechanism, Mechanism) else None
+
+
+def _place(at: float | str | None, source: PlotInput | None) -> float | None:
     """The coordinate of one position, SI."""
-    if not isinstance(at, str):
-        return at
+    if not isinstance(at, str) or source is None:
+        return None if isinstance(at, str) else at
     if not source.mechanism.drivers:
         raise RequestError(
             _(

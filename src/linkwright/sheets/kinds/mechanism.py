@@ -24,6 +24,7 @@ from linkwright.plotting.diagrams.pages import link_forces, worth_drawing
 from linkwright.plotting.diagrams.panels import Panel as Plotted
 from linkwright.plotting.diagrams.source import PlotInput, main_output
 from linkwright.sheets.diagrams import AccelerationPanel, CurvePanel, ForcePanel, VelocityPanel
+from linkwright.sheets.layers import layer_panels
 from linkwright.sheets.layout import Panel, TablePanel
 from linkwright.sheets.machine import MachinePanel, Positions
 from linkwright.sheets.settings import SHEETS, Content, Subject
@@ -65,6 +66,7 @@ def mechanism(subject: Subject) -> Content:
     if forces is not None:
         panels += _force_polygons(positions, forces)
     panels += _curves(positions)
+    panels += layer_panels(subject)
     panels += [data_table(positions), *motion_table(positions), *force_table(positions)]
     return Content(panels)
 
