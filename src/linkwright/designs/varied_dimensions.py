@@ -19,8 +19,8 @@ from linkwright.core.arguments import one_or_more, require
 from linkwright.core.arrays import Floats
 from linkwright.designs.ranges import Range, dimension_of, parse_range
 from linkwright.drivers.rocking import Rocking
-from linkwright.errors import LinkwrightError, QuantityError, RequestError, with_remedy
-from linkwright.files.write import Document
+from linkwright.errors import LinkwrightError, QuantityError, RequestError
+from linkwright.files.write import Document, no_place
 from linkwright.joints.toothed import Numbers, is_integer
 from linkwright.kinematics.assembly import AssemblyError
 from linkwright.kinematics.cycle import over_cycle
@@ -29,6 +29,7 @@ from linkwright.kinematics.names import canonical
 from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.drawing import Drawing
+from linkwright.mechanism.mass_from_shape import following
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.units import number
@@ -417,14 +418,13 @@ def changed_text(document: Document, values: Mapping[str, float]) -> str:
     drawn = drawn_places(document) if any(moves(old, each) for each in changed) else {}
     edits = []
     for address, value in changed.items():
+        if address in following(old):  # the other two would be lost
+            raise no_place(address, old)
         how = written(document, address, old.dimension(address))
         if how is not None:
             edits.append((how, value))
         elif not (drawn and address in drawn_dimensions(old)):
-            near = offered(address, old.dimensions())
-            raise LinkwrightError(
-                with_remedy(_('the file has no place for "{address}"', code="model.no_place", address=address), near)
-            )
+            raise no_place(address, old)
     if drawn:
         motion = as_drawn(old, new)
         edits += [(how, _coordinate(motion, key)) for how, key in drawn.values()]

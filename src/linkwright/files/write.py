@@ -301,12 +301,7 @@ class Document:
             last = len(rest) == 1 and rest[0] not in ("x", "y", "0", "1")
             if last and isinstance(node, MappingNode) and node is not root:
                 return self._added(text, node, rest[0], value)
-        raise LinkwrightError(
-            with_remedy(
-                _('the file has no place for "{address}"', code="model.no_place", address=address),
-                offered(address, self.mechanism.dimensions()),
-            )
-        )
+        raise no_place(address, self.mechanism)
 
     def place(self, address: str) -> tuple[int, int] | None:
         """Span of the value at an address in the text: its first offset and the one behind it; None where the
@@ -378,6 +373,15 @@ class Document:
         if stripped[:1] in ("[", "{", '"', "'"):
             return stripped
         return json.dumps(stripped, ensure_ascii=False) if self._json and stripped != "0" else flow(stripped)
+
+
+def no_place(address: str, mechanism: Mechanism) -> LinkwrightError:
+    """The error for an address that a file has no place for: of no dimension, or of one behind a word, such as the
+    density of a material that it names."""
+    sentence = _('the file has no place for "{address}"', code="model.no_place", address=address)
+    known = mechanism.dimensions()
+    behind = _("write numbers in place of the word of the file from which it follows")
+    return LinkwrightError(with_remedy(sentence, behind if address in known else offered(address, known)))
 
 
 def _root(text: str) -> MappingNode:

@@ -14,6 +14,7 @@ from linkwright.files.write import flow
 from linkwright.server import request
 from linkwright.server.draft import Draft
 from linkwright.server.drawn import all_points
+from linkwright.server.references import owner_of_plate
 from linkwright.server.values import errors
 from linkwright.words import _
 
@@ -72,6 +73,10 @@ KINDS = {
 NAMING = ("joints", "loads", "actuators", "stops", "driver", "drivers", "cycle")
 
 
+#: Where plates have the numbers of their layers.
+LAYERS = ("construction", "layers")
+
+
 def change(draft: Draft, what: str, old: str, new: str) -> None:
     """Writes another name wherever one is mentioned; raises LinkwrightError where the text is worse for it."""
     before, known = draft.text, len(errors(draft.text))
@@ -106,6 +111,8 @@ def _mentions(draft: Draft, what: str, old: str, new: str) -> Iterator[tuple[Sca
             text = node.text
             if _is_named(what, path, text, old, is_key=is_key):
                 yield node, new
+            elif path == LAYERS and is_key and what in ("link", "pair") and owner_of_plate(text) == old:
+                yield node, text[: -len(old)] + new
             elif (changed := head.sub(new, text)) != text or (
                 what == "point" and (changed := tail.sub(new, text)) != text
             ):
@@ -140,7 +147,7 @@ def _is_named(what: str, path: tuple[str, ...], text: str, old: str, *, is_key: 
         if path == ("path", "point"):
             return True
         here = inner == "between" if section == "actuators" else inner in POINTS
-        return here and section in ("joints", "loads", "actuators", "driver", "drivers", "links")
+        return here and section in ("joints", "loads", "actuators", "driver", "drivers", "links", "frame")
     if section == "run":
         return what == "driver" and inner == "prescribed"
     if section not in NAMING:

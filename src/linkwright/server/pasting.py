@@ -58,7 +58,17 @@ class _Copy:
             data["mass_centre"] = self.place(centre) if isinstance(centre, list) else self.points.get(centre, centre)
         if "angle" in data:
             data["angle"] = self.sign(data["angle"])
+        if isinstance(data.get("shape"), dict):
+            data["shape"] = {key: self.of_shape(key, value) for key, value in data["shape"].items()}
         return data
+
+    def of_shape(self, key: str, value: Any) -> Any:
+        """A value of a link's shape: points by their new names, places and outlines mirrored."""
+        if key == "through" and isinstance(value, list):
+            return [self.place(each) if isinstance(each, list) else self.points.get(each, each) for each in value]
+        if key == "outline" and isinstance(value, list):
+            return [self.place(each) for each in value]
+        return [self.of_shape("outline", each) for each in value] if key == "holes" else value
 
     def place(self, place: Any) -> Any:
         """Coordinates in a link's axes."""

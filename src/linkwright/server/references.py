@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from linkwright.actuators.base import ACTUATORS
 from linkwright.applied_loads.base import LOADS
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Node, Scalar, Sequence
+from linkwright.fields.nodes import Node, Scalar, Sequence, below
 from linkwright.joints.base import JOINTS
 from linkwright.server.draft import Draft
 from linkwright.server.entries import texts, word
@@ -18,7 +18,8 @@ NO_LINKS = ("kind", "at", "through")
 
 def points_of_entry(link: MappingNode) -> Iterator[Scalar]:
     """The words of a link's entry that name its points."""
-    for node in (link.get(key) for key in ("points", "also", "mass_centre")):
+    keys = ("points",), ("also",), ("mass_centre",), ("shape", "through")
+    for node in (below(link, *each) for each in keys):
         if isinstance(node, MappingNode):
             yield from (entry.key for entry in node.entries)
         elif node is not None:
@@ -54,6 +55,11 @@ def named(node: Node) -> Iterator[str]:
                 yield from named(value)
     else:
         yield from (each.text.split(".")[0] for each in scalars(node))
+
+
+def owner_of_plate(plate: str) -> str:
+    """The link or joint after which a plate is named: ``crank``, ``guide slide``."""
+    return plate.rpartition(" ")[2]
 
 
 def scalars(node: Node) -> Iterator[Scalar]:

@@ -7,13 +7,13 @@ from typing import Any
 
 from linkwright.errors import LinkwrightError
 from linkwright.fields.nodes import Mapping as MappingNode
-from linkwright.fields.nodes import Sequence
+from linkwright.fields.nodes import Scalar, Sequence, below
 from linkwright.files.write import flow
 from linkwright.server import request
 from linkwright.server.draft import Draft
 from linkwright.server.entries import fresh, texts, word
 from linkwright.server.forms import link_entry
-from linkwright.server.references import named, points_of_entry, references
+from linkwright.server.references import named, owner_of_plate, points_of_entry, references
 from linkwright.words import _
 
 NEEDED = _("{name} needs the fixed point {point}; remove {name} first", code="studio.point_of")
@@ -193,10 +193,37 @@ def _take_off(draft: Draft, point: str, link: str) -> None:
         )
     if word(draft.link(link), "mass_centre") == point:
         draft.cut(draft.link(link), "mass_centre")
+    _leave_path(draft, link, point)
     gone = dict.fromkeys((section, name) for section, name, _unused in references(draft, link, point))
     for section, name in gone:
         draft.take_out(section, name)
     _remove_what_names(draft, {name for section, name in gone if section == "joints"})
+
+
+def _leave_path(draft: Draft, link: str, point: str) -> None:
+    """A point out of the path along which a link is bent; the link's shape with its last but one."""
+    through = below(draft.link(link), "shape", "through")
+    if not isinstance(through, Sequence):
+        return
+    rest = [each for each in through.items if not (isinstance(each, Scalar) and each.text == point)]
+    if len(rest) < 2:
+        draft.cut(draft.link(link), "shape")
+    elif len(rest) < len(through.items):
+        draft.write(through, f"[{', '.join(draft.text[each.start : each.end].strip() for each in rest)}]")
+
+
+def _leave_layers(draft: Draft, gone: set[str]) -> None:
+    """The layers of plates of links and joints that are gone."""
+    made = draft.section("construction")
+    layers = made.get("layers") if made is not None else None
+    for key, _unused in list(layers) if isinstance(layers, MappingNode) else ():
+        if owner_of_plate(key) in gone:
+            now = below(draft.section("construction"), "layers")
+            assert isinstance(now, MappingNode)
+            if len(now.entries) > 1:
+                draft.cut(now, key)
+            else:
+                draft.take_out("construction", "layers")
 
 
 def _all_drawn(draft: Draft, points: list[str]) -> bool:
@@ -205,9 +232,11 @@ def _all_drawn(draft: Draft, points: list[str]) -> bool:
 
 
 def _reform(draft: Draft, link: str, points: list[str]) -> None:
-    """Writes a link anew that goes through the points that are left of it; masses stay."""
+    """Writes a link anew that goes through the points that are left of it; masses and shapes stay."""
     entry = draft.link(link)
-    kept = {key: draft.text[node.start : node.end].strip() for key, node in entry if key in ("mass", "inertia")}
+    kept = {
+        key: draft.text[node.start : node.end].strip() for key, node in entry if key in ("mass", "inertia", "shape")
+    }
     at = {point: draft.where(point) for point in points}
     draft.put("links", link, link_entry(draft, at))
     for key, text in kept.items():
@@ -245,6 +274,7 @@ def _remove_what_names(draft: Draft, gone: set[str]) -> None:
                 gone |= {key} if section == "joints" else set()
                 if section == "joints" and isinstance(node, MappingNode) and word(node, "guide") == "frame":
                     guided.add(word(node, "through"))
+    _leave_layers(draft, gone)
     driver = draft.root.get("driver")
     if driver is not None and gone & set(named(driver)):
         draft.cut_top("driver")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from tests.refusals import findings, refused, said
 
 import linkwright as lw
 from linkwright.designs.optimise.dimensions import HeldDimensions
+from linkwright.designs.varied_dimensions import changed_text
 from linkwright.mechanism.construction import MATERIALS
 from linkwright.mechanism.mass_from_shape import ENDS
 
@@ -211,3 +213,14 @@ def test_what_is_missing_is_named() -> None:
     found = said(findings(text(made="kerf: 0.1 mm")), "missing-key", "links.crank.mass")
     assert "there is no width, thickness, pin_radius" in str(found)
     assert "construction.thickness" in str(found)
+
+
+def test_a_changed_text_keeps_masses_from_shapes(tmp_path: Path) -> None:
+    path = tmp_path / "machine.yaml"
+    path.write_text(text())
+    document = lw.read_document(path)
+    longer = lw.loads(changed_text(document, {"crank.length": 0.11}))
+    assert longer.links["crank"] == document.mechanism.with_dimensions({"crank.length": 0.11}).links["crank"]
+    for address in ("crank.mass", "coupler.shape.material.density"):
+        with refused("model.no_place", address=address):
+            changed_text(document, {address: 1.0})
