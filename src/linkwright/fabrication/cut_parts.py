@@ -95,5 +95,6 @@ def parts_in(found: Layers) -> CutParts:
     fit, washer = (0.0, 0.0) if construction is None else (construction.fit, construction.washer or 0.0)
     pose = Pose.of(found)
     turned = Turned(found, pose, Room(found, pose), steel.name, steel.density, fit, washer)
-    parts = (*Plates(found, pose).parts(), *turned.pins(), *turned.rings())
-    return CutParts(found.mechanism, found, parts, (*turned.notes, *found.solids.notes))
+    plates = Plates(found, pose)
+    parts = (*plates.parts(), *turned.pins(), *turned.rings())
+    return CutParts(found.mechanism, found, parts, (*plates.notes(), *turned.notes, *found.solids.notes))

@@ -133,6 +133,11 @@ class Pose:
         origin, turn = self.links[link]
         return origin + turn * place
 
+    def local(self, link: str, place: complex) -> complex:
+        """A place in the frame's axes in those of a link, m."""
+        origin, turn = self.links[link]
+        return (place - origin) / turn
+
     def axis(self, pin: Solid) -> complex:
         """Where a pin or post is, m."""
         return self.world(pin.carrier, axis(pin))

@@ -6,17 +6,26 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from linkwright.fabrication.holes import Pose, check_holes, holes_of
+import numpy as np
+
+from linkwright.fabrication.holes import Pose, check_holes, holes_of, pin_radius
 from linkwright.fabrication.mounting import mounting_holes
 from linkwright.fabrication.part import Hole, Part, Place
 from linkwright.fabrication.wheel_plates import WheelPlates
 from linkwright.layering.arrangement import Layers
 from linkwright.mechanism.link_shape import material_of
+from linkwright.shapes.distance import contains
 from linkwright.shapes.shape import Shape
 from linkwright.solids.solid import Solid
+from linkwright.words import Message, _
 
 #: How far from its centre a pin's head reaches at most, in radii of the pin.
 HEADS = 1.6
+_CYLINDER = _(
+    "{guide} and {block} slide in each other like barrel and rod: their plates show lengths and pins; take a "
+    "cylinder or a telescopic tube.",
+    code="cut.cylinder",
+)
 
 
 @dataclass
@@ -45,7 +54,15 @@ class Plates:
             yield self._part(each, shape, self._holes(each, shape), height[each.name])
         for each in solids:
             if each.sort == "block" and len(each.plates) > 1:
-                yield self._part(each, each.shape, (), self._block(each))
+                height_of_block = self._block(each)
+                yield self._part(each, each.shape, self._through(each, height_of_block), height_of_block)
+
+    def notes(self) -> Iterator[Message]:
+        """What is drawn as plates and is to be bought, or made otherwise."""
+        level = {frozenset(each) for each in self.layers.solids.level}
+        for joint in self.layers.mechanism.guides.values():
+            if frozenset((joint.guide, joint.block)) in level:
+                yield _CYLINDER.format(guide=joint.guide, block=joint.block)
 
     def _part(self, solid: Solid, shape: Shape, holes: tuple[Hole, ...], height: tuple[float, float]) -> Part:
         low, high = height
@@ -68,4 +85,22 @@ class Plates:
     def _block(self, block: Solid) -> tuple[float, float]:
         """Between which heights a block is: through its guide and up, or down, to the plate of its link."""
         guide, own = (self.layers.height[name] for name in (block.plates[0], block.plates[-1]))
+        if guide == own:
+            return guide
         return (guide[0], own[0]) if guide < own else (own[1], guide[1])
+
+    def _through(self, block: Solid, height: tuple[float, float]) -> tuple[Hole, ...]:
+        """The holes of a block for pins of its link that go through it as well; they turn in it."""
+        construction = self.layers.mechanism.construction
+        fit = 0.0 if construction is None else construction.fit
+        found = []
+        for pin in self.layers.solids.by_name.values():
+            if (
+                pin.sort == "pin"
+                and (min(pin.name, block.name), max(pin.name, block.name)) in self.layers.solids.joined
+            ):
+                centre = self.pose.local(block.carrier, self.pose.axis(pin))
+                low, high = self.layers.z(pin.name)
+                if contains(block.shape, np.array([centre]))[0] and low < height[1] and height[0] < high:
+                    found.append(Hole(pin.name, centre, pin_radius(pin) + 0.5 * fit, False))
+        return tuple(found)
