@@ -59,6 +59,9 @@ def main() -> None:
     (HERE / "symbols.svg").write_text(symbols(), encoding="utf-8")
     lw.gear_pair((12, 24), 3e-3, profile_shift=(0.6, 0.36)).draw(0.1).save(HERE / "gear_pair.svg", force=True)
     sheet("theo_jansen_leg", (0.12, 0.1))
+    for kind in ("side", "exploded"):
+        view = lw.plot(lw.layers(lw.load("gallery:theo_jansen_leg")), kind, title="")
+        view.save(HERE / f"theo_jansen_leg_{kind}.svg", force=True)
     for name, (model, options) in STILL.items():
         draw(lw.load(f"gallery:{model}"), **options).save(HERE / f"{name}.svg", force=True)
     for name, (model, options) in MOVING.items():
