@@ -30,6 +30,8 @@ ATTACHED.update(
         "Guidance.coordinates": "linkwright.kinematics.following:coordinates",
         "Guidance.posed": "linkwright.kinematics.following:posed",
         "LayerCount.values": "linkwright.layering.metrics:layer_count",
+        "LinkSizes.model_text": "linkwright.sizing.written:model_text",
+        "LinkSizes.sized": "linkwright.sizing.written:sized",
         "Mechanism._repr_svg_": "linkwright.plotting.drawing.draw:picture_of",
         "Mechanism.structure": "linkwright.topology.decompose:structure",
         "MinGap.values": "linkwright.layering.metrics:smallest_gap",

@@ -50,6 +50,7 @@ ASKED: dict[str, list[str]] = {
     "report": ["gallery:kite", "--sections", "task", "structure", "--to", "html", "--output", "OUT.html"],
     "run": ["gallery:shaper_quick_return", "--for", "0.1s", "--steps", "4"],
     "sheet": ["gallery:slider_crank_offset", "--size", "A1", "--output", "OUT.svg"],
+    "size": ["gallery:kite", "--steps", "24"],
     "solve": ["gallery:kite", "--steps", "4"],
     "statics": ["gallery:two_cables"],
     "statistics": ["gallery:spring_rate"],

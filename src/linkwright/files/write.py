@@ -19,7 +19,7 @@ from linkwright.fields.nodes import Entry, Node, Scalar, Sequence, located
 from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.references import PLACE
 from linkwright.files.compose import compose
-from linkwright.files.read_model import FREE_SECTIONS, HEADER
+from linkwright.files.read_model import FREE_SECTIONS, HEADER, SECTIONS
 from linkwright.filesystem import atomic_write
 from linkwright.joints.base import IMPLIED, Joint
 from linkwright.mechanism.link import LINK_FIELDS, STRUCTURAL_POINTS, Link, Vec, from_drawing
@@ -271,8 +271,8 @@ class Document:
         """Write ``value`` (as text of the file, such as ``"1.3 m"``) at a place of the file.
 
         ``address`` is a dimension's address (``crank.length``) or a path of keys (``links.crank.length``). A last
-        key that is not there yet is added. Raises ModelError, and changes nothing, where the new text is not a
-        model; LinkwrightError for a place that the file does not have.
+        key that is not there yet is added, a section at the end. Raises ModelError, and changes nothing, where the
+        new text is not a model; LinkwrightError for a place that the file does not have.
         """
         self.set_all({address: value})
 
@@ -299,9 +299,24 @@ class Document:
             if not rest:
                 return self._replaced(text, node, value)
             last = len(rest) == 1 and rest[0] not in ("x", "y", "0", "1")
-            if last and isinstance(node, MappingNode) and node is not root:
+            if last and isinstance(node, MappingNode) and (node is not root or rest[0] in SECTIONS):
                 return self._added(text, node, rest[0], value)
         raise no_place(address, self.mechanism)
+
+    def has(self, path: str) -> bool:
+        """Whether the file has something at a path of keys."""
+        return not _follow(self._tree, path.split("."))[1]
+
+    def block(self, entries: Mapping[str, Plain]) -> str:
+        """Text of a section for ``set``: one line for each entry, in a JSON file all on one."""
+        if self._json:
+            return json.dumps(entries, ensure_ascii=False)
+        newline = "\r\n" if "\r\n" in self.text else "\n"
+        return "".join(f"{newline}  {scalar(name)}: {flow(each)}" for name, each in entries.items())
+
+    def inline(self, value: Plain) -> str:
+        """Text of a table for ``set``, on one line."""
+        return json.dumps(value, ensure_ascii=False) if self._json else flow(value)
 
     def place(self, address: str) -> tuple[int, int] | None:
         """Span of the value at an address in the text: its first offset and the one behind it; None where the
@@ -351,7 +366,7 @@ class Document:
     def _added(self, text: str, node: MappingNode, key: str, value: str) -> Edit:
         offset = 1 if text.startswith("\ufeff") else 0
         name = json.dumps(key) if self._json else key
-        entry = f"{name}: {self._written(value)}"
+        entry = f"{name}:{value}" if value.startswith(("\n", "\r\n")) else f"{name}: {self._written(value)}"
         if not node.entries or node.flow:
             place = _flow_end(node, text, offset)
             glue = ", " if node.entries else ""

@@ -6,11 +6,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+from linkwright.core.attached import attached
 from linkwright.core.data import Frozen
 from linkwright.core.quantity import shown
 from linkwright.core.table import Amount, Cell, Table, Tabular
 from linkwright.equations.steps import Step, page
 from linkwright.errors import speaker
+from linkwright.files.write import Document
+from linkwright.mechanism.construction import Material
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.sizing.allowed import PIN, Allowed
 from linkwright.sizing.links import LINK_CRITERIA, LinkSize
@@ -22,13 +25,19 @@ from linkwright.words import Message, Translate, _, pgettext
 class LinkSizes(Tabular, Frozen):
     """Sizes of the links and pins of a ``mechanism`` from its largest forces.
 
-    ``allowed``: what the links may bear, and ``thickness`` of all plates, m, by the names of the links; ``links``:
-    those with a width, the frame's among them; ``pins``; ``notes``: given sizes that do not suffice, and what does
-    not fit together.
+    ``material`` of links without one of their own, ``safety`` factor, ``running``: pressure of running pins that was
+    asked for, Pa, ``plate``: thickness of links without one of
+    their own, m, None where there are none; ``allowed``: what the links may bear, and ``thickness`` of all plates, m,
+    by the names of the links; ``links``: those with a width, the frame's among them; ``pins``; ``notes``: given sizes
+    that do not suffice, and what does not fit together.
     """
 
     row_names: ClassVar[str | None] = "link"
     mechanism: Mechanism
+    material: Material
+    safety: float
+    running: float | None
+    plate: float | None
     allowed: Mapping[str, Allowed]
     thickness: Mapping[str, float]
     links: Mapping[str, LinkSize]
@@ -45,9 +54,23 @@ class LinkSizes(Tabular, Frozen):
         return not any(note.code == "sizing.no_room" for note in self.notes)
 
     @property
+    @attached
+    def sized(self) -> Mechanism:
+        """The machine with these sizes in its construction, links and pins."""
+        raise NotImplementedError
+
+    @attached
+    def model_text(self, document: Document | None = None) -> str:
+        """A model file with these sizes: the text of a document with them, everything else as it was, or a new one.
+
+        Raises LinkwrightError where the document has no place for a size.
+        """
+        raise NotImplementedError
+
+    @property
     def basis(self) -> tuple[Message, ...]:
         """What the sizes rest on."""
-        allowed = self.allowed["frame"]
+        allowed = Allowed.of(self.material, self.safety, self.running)
         return (
             _(
                 "Safety factor {safety:g} against yield, {buckling:g} against buckling; links of {material} with Re "
@@ -94,7 +117,8 @@ class LinkSizes(Tabular, Frozen):
 
     def pin_table(self) -> Table:
         """Pins with their force, pressure, criterion and diameter."""
-        head = (_("pin"), _("fixed in"), _("force"), _("pressure"), _("criterion"), _("diameter"))
+        pin, pressure = pgettext("sizing", "pin"), pgettext("sizing", "pressure")
+        head = (pin, _("fixed in"), _("force"), pressure, _("criterion"), _("diameter"))
         rows: list[list[Cell]] = [
             [
                 name,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
@@ -12,8 +12,8 @@ from linkwright.core.arguments import integer, real, require
 from linkwright.core.quantity import shown
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.run import solve_forces
-from linkwright.mechanism.construction import MATERIALS, Construction, Material
-from linkwright.mechanism.link_shape import material_of, needs_width
+from linkwright.mechanism.construction import MATERIALS, Construction, LinkShape, Material
+from linkwright.mechanism.link_shape import needs_width
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import no_such
 from linkwright.sizing.allowed import Allowed
@@ -25,7 +25,7 @@ from linkwright.sizing.pins import PIN_CRITERIA, OnPin, PinLoad, PinSize, Seat
 from linkwright.sizing.preferred import PLATES, decade
 from linkwright.sizing.rule import usual_length
 from linkwright.sizing.sections import slenderness
-from linkwright.words import Message, _
+from linkwright.words import Message, _, pgettext
 
 #: Positions over the cycle; largest values are found between them.
 POSITIONS = 180
@@ -87,12 +87,10 @@ def size_links(
             )
         )
     running = None if pressure is None else _above("pressure", pressure, 0.0)
-    materials = _materials(mechanism, material)
-    allowed = {name: Allowed.of(each, factor, running) for name, each in materials.items()}
-    plate = None if thickness is None else _above("thickness", thickness, 0.0)
+    usual = construction.material if material is None else _material(material)
+    plate = construction.thickness if thickness is None else _above("thickness", thickness, 0.0)
     forces = solve_forces(mechanism, steps=integer("steps", steps, 1))
-    sizing = Sizing(MachineLoads(mechanism, forces), construction, allowed, plate)
-    return sizing.found()
+    return Sizing(MachineLoads(mechanism, forces), construction, usual, factor, running, plate).found()
 
 
 def _above(option: str, value: float, limit: float) -> float:
@@ -110,27 +108,24 @@ def _above(option: str, value: float, limit: float) -> float:
     return found
 
 
-def _materials(mechanism: Mechanism, material: str | Material | None) -> dict[str, Material]:
-    """The material of every link: its own, else the one that is asked for, else that of the construction."""
-    if isinstance(material, str):
-        if material not in MATERIALS:
-            raise LinkwrightError(no_such(_("material"), material, MATERIALS))
-        material = MATERIALS[material]
-    found = {}
-    for name, link in {"frame": mechanism.frame, **mechanism.links}.items():
-        own = None if link.shape is None else link.shape.material
-        found[name] = own or material or material_of(mechanism, name)
-    return found
+def _material(material: str | Material) -> Material:
+    if isinstance(material, Material):
+        return material
+    if material not in MATERIALS:
+        raise LinkwrightError(no_such(_("material"), material, MATERIALS))
+    return MATERIALS[material]
 
 
 @dataclass(frozen=True, eq=False)
 class Sizing:
-    """The sizes of a machine: ``allowed`` by link, ``plate``: thickness of links without one of their own, None to
-    be found."""
+    """The sizes of a machine: ``material`` and ``plate``, the thickness, of links without one of their own, the
+    latter None to be found; ``running``: pressure, Pa, of running pins, None for the usual one."""
 
     loads: MachineLoads
     construction: Construction
-    allowed: Mapping[str, Allowed]
+    material: Material
+    safety: float
+    running: float | None
     plate: float | None
 
     @property
@@ -139,38 +134,43 @@ class Sizing:
         return self.loads.mechanism
 
     @cached_property
-    def _given_thickness(self) -> Mapping[str, float]:
+    def _shapes(self) -> Mapping[str, LinkShape]:
         links = {"frame": self.mechanism.frame, **self.mechanism.links}
-        own = {name: link.shape.thickness for name, link in links.items() if link.shape is not None}
-        usual = self.plate or self.construction.thickness
-        found = {name: own.get(name) or usual for name in links}
+        return {name: link.shape or LinkShape() for name, link in links.items()}
+
+    @cached_property
+    def allowed(self) -> Mapping[str, Allowed]:
+        """What the links may bear."""
+        return {
+            name: Allowed.of(shape.material or self.material, self.safety, self.running)
+            for name, shape in self._shapes.items()
+        }
+
+    @cached_property
+    def _given_thickness(self) -> Mapping[str, float]:
+        found = {name: shape.thickness or self.plate for name, shape in self._shapes.items()}
         return {name: each for name, each in found.items() if each is not None}
 
     def found(self) -> LinkSizes:
         """All sizes, with the thinnest plate that fits."""
-        links = ("frame", *self.mechanism.links)
-        if len(self._given_thickness) == len(links):
-            return self._of(self._given_thickness)
-        thickness = next(
-            (
-                full
-                for plate in self._plates()
-                if self._fits(full := dict.fromkeys(links, plate) | dict(self._given_thickness))
-            ),
-            None,
-        )
-        if thickness is None:
-            raise LinkwrightError(
-                _(
-                    "the forces on {name!r} of up to {force} are too large for plates of {material} of its size; "
-                    "take a stronger material, or check loads, masses and speeds",
-                    code="sizing.too_large",
-                    name=self.mechanism.name,
-                    force=shown(max((each.value for each in self.loads.on_pins.values()), default=0.0), "force", 3),
-                    material=self.allowed["frame"].material.name or _("its material"),
-                )
+        free = [name for name in self._shapes if name not in self._given_thickness]
+        if not free:
+            return self._of(self._given_thickness, self.plate)
+        for plate in self._plates():
+            thickness = dict.fromkeys(free, plate) | dict(self._given_thickness)
+            if self._fits(thickness, free):
+                return self._of(thickness, plate)
+        largest = max((each.value for each in self.loads.on_pins.values()), default=0.0)
+        raise LinkwrightError(
+            _(
+                "the forces on {name!r} of up to {force} are too large for plates of {material} of its size; take a "
+                "stronger material, or check loads, masses and speeds",
+                code="sizing.too_large",
+                name=self.mechanism.name,
+                force=shown(largest, "force", 3),
+                material=self.material.name or pgettext("sizing", "its material"),
             )
-        return self._of(thickness)
+        )
 
     def _plates(self) -> Iterator[float]:
         """Preferred thicknesses, up to half of the usual length of a link."""
@@ -179,9 +179,8 @@ class Sizing:
         while (plate := decade(plate * 1.01, up=True)) <= most:
             yield plate
 
-    def _fits(self, thickness: Mapping[str, float]) -> bool:
+    def _fits(self, thickness: Mapping[str, float], free: Collection[str]) -> bool:
         """Whether plates are thick enough for what has no size yet, judged by the positions that were solved."""
-        free = [name for name in thickness if name not in self._given_thickness]
         pins = self._pins(thickness)
         for size in pins.values():
             links = (size.load.seat.link, *(each.link for each in size.load.links))
@@ -203,18 +202,29 @@ class Sizing:
             return False
         return load.length is None or self.loads.rough_width(name, bores, thickness, allowed.stress) <= most
 
-    def _of(self, thickness: Mapping[str, float]) -> LinkSizes:
+    def _of(self, thickness: Mapping[str, float], plate: float | None) -> LinkSizes:
         pins = self._pins(thickness)
         bores = self._bores(pins)
         stress = {name: each.stress for name, each in self.allowed.items()}
         sections = self.loads.sections(bores, thickness, stress)
         links = {}
-        for name in thickness:
+        for name in self._shapes:
             load = self._link(name, thickness[name], bores, sections.get(name))
             if load.needs(self.allowed[name]) and needs_width(self.mechanism.link(name)):
                 links[name] = LinkSize.of(load, self.allowed[name], self._given.width.get(name))
         notes = tuple(self._notes(links, pins))
-        return LinkSizes(self.mechanism, self.allowed, thickness, links, pins, notes)
+        return LinkSizes(
+            self.mechanism,
+            self.material,
+            self.safety,
+            self.running,
+            plate,
+            self.allowed,
+            thickness,
+            links,
+            pins,
+            notes,
+        )
 
     @cached_property
     def _given(self) -> GivenSizes:
@@ -244,7 +254,7 @@ class Sizing:
             tuple(sorted(links, key=lambda each: each.force)),
             self.construction.washer or 0.0,
             self.construction.supports == "both" and seat == "frame",
-            self.allowed[seat].safety,
+            self.safety,
         )
 
     def _link(

@@ -85,7 +85,7 @@ def _by_forces(ruled: Sizes, sized: LinkSizes) -> Sizes:
     note = _(
         "Sizes that the file does not give are from the largest forces over the cycle, with a safety factor of "
         "{safety:g} (linkwright size shows how).",
-        safety=sized.allowed["frame"].safety,
+        safety=sized.safety,
     )
     return Sizes(
         {**ruled.width, **{name: each.width for name, each in sized.links.items()}},
