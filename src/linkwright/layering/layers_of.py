@@ -16,6 +16,7 @@ from linkwright.layering.arrangement import Layers
 from linkwright.layering.conflicts import contradiction
 from linkwright.layering.demands import BASE, Demands
 from linkwright.layering.orders import Undecided
+from linkwright.layering.problem import Apart, Demand
 from linkwright.layering.remedies import remedies
 from linkwright.layering.search import TIME_LIMIT, arrange
 from linkwright.layering.sentences import Sentences
@@ -54,7 +55,7 @@ def layers(
         contradict and changes that would help.
 
     Raises:
-        LinkwrightError: a shape cannot be made, no position is reached, or no layers are found within a minute.
+        LinkwrightError: a shape cannot be made, no position is reached, or no layers are found within half a minute.
         RequestError: there is no such plate or layer.
 
     >>> import linkwright as lw
@@ -101,7 +102,7 @@ def _layers(made: Mechanism) -> Layers:
         found,
         {},
         wanted,
-        conflicts=tuple(sentences.conflict(each) for each in contradicting),
+        conflicts=tuple(map(sentences.conflict, sorted(contradicting, key=_is_given))),
         remedies=remedies(demands, problem, contradicting),
         gaps=gaps,
         limits=limits,
@@ -150,6 +151,11 @@ def _pinned(found: Solids, walls: Collection[str]) -> frozenset[frozenset[str]]:
     pins = (each.plates for each in found.by_name.values() if each.sort == "pin")
     pairs = (pair for plates in pins for pair in combinations(plates, 2) if not {*pair} & {*walls})
     return frozenset(map(frozenset, pairs))
+
+
+def _is_given(demand: Demand) -> bool:
+    """Whether a demand is asked for rather than found in the motion."""
+    return not isinstance(demand, Apart)
 
 
 def _limits(motion: Motion) -> tuple[Message, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from linkwright.core.arrays import Floats
-from linkwright.layering.problem import Part, Problem
+from linkwright.layering.cliques import Piece, cliques
+from linkwright.layering.problem import Problem
 
 
 @dataclass(frozen=True)
@@ -38,7 +39,7 @@ class Program:
     Unknowns: of every plate (of those that are level the first one) and every layer 1 if it lies there; of a body
     between several plates and every layer whether it begins there or below, and whether it ends there or above. The
     latter are 0 or 1 wherever the former are, so that only these need be integers. Time-indexed, as scheduling calls
-    it: two bodies apart are one inequality in each layer.
+    it: bodies that are all apart from each other are one inequality in each layer.
     """
 
     def __init__(self, problem: Problem, layers: int) -> None:
@@ -55,8 +56,8 @@ class Program:
         self._add_plates()
         for name in self.reaching:
             self._add_span(name)
-        for each in problem.apart:
-            self._add_apart(each.first, each.parts[0], each.second, each.parts[1])
+        for each in cliques(problem):
+            self._add_apart(each)
 
     def solve(self, time_limit: float) -> Answer:
         """The layers of all plates with the shortest pins, then with plates as near as can be to the frame."""
@@ -171,18 +172,12 @@ class Program:
                 found.add(frozenset((*one, *other)))
         return frozenset(found)
 
-    def _add_apart(self, first: str, first_part: Part, second: str, second_part: Part) -> None:
-        """In every layer at most one of two bodies."""
-        one, other = self._presence[first, first_part], self._presence[second, second_part]
-        entries = ((each.rows, each.columns, each.values) for each in (one, other))
-        self._add_rows(np.full(self.size + 1, -np.inf), 1.0 - one.constant - other.constant, *entries)
-
-    @cached_property
-    def _presence(self) -> Mapping[tuple[str, Part], Presence]:
-        asked = {
-            pair for each in self.problem.apart for pair in zip((each.first, each.second), each.parts, strict=True)
-        }
-        return {(name, part): (self._body if part == "body" else self._heads)(name) for name, part in asked}
+    def _add_apart(self, pieces: Iterable[Piece]) -> None:
+        """In every layer at most one of some bodies or heads that are all apart."""
+        found = [(self._body if part == "body" else self._heads)(name) for name, part in pieces]
+        entries = ((each.rows, each.columns, each.values) for each in found)
+        limit = 1.0 - np.sum([each.constant for each in found], axis=0)
+        self._add_rows(np.full(self.size + 1, -np.inf), limit, *entries)
 
     def _body(self, name: str) -> Presence:
         """Where the body itself is."""

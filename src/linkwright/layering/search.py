@@ -11,7 +11,7 @@ from linkwright.layering.problem import Problem
 from linkwright.layering.program import Program
 
 #: Seconds after which a search gives what it has found so far.
-TIME_LIMIT = 60.0
+TIME_LIMIT = 30.0
 
 
 @dataclass(frozen=True)

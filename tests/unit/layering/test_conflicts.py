@@ -55,7 +55,11 @@ def test_coupler_over_the_pin_of_a_crank_below_a_cover() -> None:
 def test_less_width_is_enough_as_reported() -> None:
     """0.3 m from line to line, less half of 320 mm, leave 140 mm for half the crank."""
     found = two_bars("320 mm")
-    assert [each.first for each in found.conflicts] == ["crank", "rocker", "crank"]
+    assert [(each.first, each.second) for each in found.conflicts] == [
+        ("crank", "rocker"),
+        ("crank", ""),
+        ("rocker", ""),
+    ]
     assert "Enough alone: make crank less than 280 mm wide, clear of rocker." in found.remedies
     assert "Enough alone: do not fix the layer of rocker." in found.remedies
     assert two_bars("279 mm").layer and not two_bars("281 mm").layer
@@ -63,7 +67,7 @@ def test_less_width_is_enough_as_reported() -> None:
 
 def test_less_clearance_is_enough_as_reported() -> None:
     found = two_bars("240 mm", "40 mm")
-    assert found.conflicts[-1].sentence.startswith("crank comes to 20 mm from rocker")
+    assert found.conflicts[0].sentence.startswith("crank comes to 20 mm from rocker")
     assert "Enough alone: allow a clearance of 20 mm." in found.remedies
     assert "Enough alone: make crank less than 200 mm wide, clear of rocker." in found.remedies
     enough = two_bars("240 mm", "20 mm")

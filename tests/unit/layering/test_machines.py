@@ -103,7 +103,7 @@ def test_a_frame_in_all_layers_around_the_links() -> None:
     assert found.height["frame"] == pytest.approx((0.0, 0.15)) and found.z("pin O") == pytest.approx((0.0, 0.1))
     assert found.min_gap == pytest.approx(4.5 - 4.34375 - 0.1)
     none = lw.layers(lw.loads(HOUSING.format(inside="4.4 m")))
-    assert [each.first for each in none.conflicts] == ["frame", "frame"] and none.conflicts[0].second == ""
+    assert [each.first for each in none.conflicts] == ["frame", "frame"] and none.conflicts[1].second == ""
     assert none.remedies[0] == "Enough alone: do not fix the layer of frame."
 
 
