@@ -10,10 +10,9 @@ import numpy as np
 from linkwright.shapes.distance import core_distances
 from linkwright.solids.draft import Draft
 from linkwright.solids.frame import COVER
+from linkwright.solids.mounting import roller_pin
 from linkwright.words import _
 
-#: Radius of a roller's pin, as a share of the roller's and of the link's width at most.
-ROLLER_PIN, PIN = 0.5, 0.25
 #: A link comes over a pin where it is nearer to its middle at a solved position than so many of its radii.
 NEAR = 1.02
 
@@ -42,8 +41,7 @@ def axes_of(draft: Draft) -> list[Axis]:
         for joint in draft.rollers(body):
             places = {body.carrier: draft.carriers.place(joint.follower, joint.at)}
             if not any(each.meets(draft, places) for each in found):
-                radius = min(ROLLER_PIN * joint.roller_radius, PIN * draft.width(body))
-                found.append(Axis(joint.name, places, radius))
+                found.append(Axis(joint.name, places, roller_pin(draft, joint)))
     return found
 
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from linkwright.mechanism.plate import shape_kind
 from linkwright.shapes.shape import Shape, polygon
 from linkwright.solids.draft import Body, Draft
 from linkwright.solids.guides import Slide, block_place
-from linkwright.solids.mounting import fasten
+from linkwright.solids.mounting import fasten, roller_pin
 from linkwright.solids.slots import Slot
 
 #: Radius of the posts of a block, and how far they are from its middle, without and with a pin there: shares of its
@@ -54,13 +55,21 @@ def _shape(draft: Draft, slide: Slide) -> Shape:
 
 def _has_pin(draft: Draft, slide: Slide) -> bool:
     """Whether a pin goes through a block."""
-    return any(_place(draft, slide).distance(each) <= draft.near for each in _pins(draft, slide))
+    return any(goes_through(draft, slide, place, radius) for place, radius in _pins(draft, slide))
 
 
-def _pins(draft: Draft, slide: Slide) -> Iterator[complex]:
+def goes_through(draft: Draft, slide: Slide, place: complex, radius: float) -> bool:
+    """Whether a block is around a pin."""
+    inner = _place(draft, slide)
+    room = replace(inner, low=inner.low + radius, high=inner.high - radius, half=inner.half - radius)
+    return min(room.half, room.high - room.low) > 0.0 and room.distance(place) <= draft.near
+
+
+def _pins(draft: Draft, slide: Slide) -> Iterator[tuple[complex, float]]:
     body = draft.body(slide.joint.block)
-    yield from (place for _name, place in draft.pinned(body))
-    yield from (draft.carriers.place(each.follower, each.at) for each in draft.rollers(body))
+    yield from ((place, draft.sizes.pin_radius[name]) for name, place in draft.pinned(body))
+    for each in draft.rollers(body):
+        yield draft.carriers.place(each.follower, each.at), roller_pin(draft, each)
 
 
 def _posts(draft: Draft, slide: Slide) -> tuple[complex, complex]:
@@ -88,11 +97,13 @@ def add_blocks(draft: Draft, slides: list[Slide], alone: dict[str, Slide]) -> No
             )
 
 
-def around_pin(draft: Draft, slides: list[Slide], carrier: str, place: complex) -> tuple[list[str], list[str]]:
+def around_pin(
+    draft: Draft, slides: list[Slide], carrier: str, place: complex, radius: float
+) -> tuple[list[str], list[str]]:
     """Of a pin of some links that goes through blocks: those that are plates of their own, and the guides around."""
     reached, around = [], []
     for slide in slides:
-        if draft.body(slide.joint.block).carrier == carrier and _place(draft, slide).distance(place) <= draft.near:
+        if draft.body(slide.joint.block).carrier == carrier and goes_through(draft, slide, place, radius):
             reached += [each for each in (draft.known(slide.block),) if each]
             around += [each for each in (draft.known(slide.plate),) if each]
     return reached, around

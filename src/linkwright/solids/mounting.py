@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from linkwright.joints.cam import CamJoint
 from linkwright.shapes.shape import Shape, disc
 from linkwright.solids.draft import Body, Draft
 from linkwright.solids.solid import Solid, Sort
@@ -13,6 +14,8 @@ from linkwright.solids.solid import Solid, Sort
 HUB = 1.6
 #: How far a post keeps from pins, in sums of their radii.
 APART = 1.25
+#: Radius of a roller's pin, as a share of the roller's and of the link's width at most.
+ROLLER_PIN, PIN = 0.5, 0.25
 
 
 @dataclass(frozen=True)
@@ -55,6 +58,11 @@ def clear(draft: Draft, body: Body, places: Iterable[complex], radius: float) ->
     found = [*places]
     free = (each for each in found if all(abs(each - other) >= APART * (radius + pin) for other, pin in taken))
     return next(free, found[-1])
+
+
+def roller_pin(draft: Draft, joint: CamJoint) -> float:
+    """The radius of the pin about which the roller of a follower turns, m."""
+    return min(ROLLER_PIN * joint.roller_radius, PIN * draft.sizes.width[joint.follower])
 
 
 def eye(draft: Draft, body: Body, place: complex) -> float:

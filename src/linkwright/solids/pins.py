@@ -34,7 +34,7 @@ def _add_pin(draft: Draft, slides: list[Slide], axles: list[Axle], axis: Axis, f
     plates += [each.plate for each in on]
     around = [each.hub for each in on]
     for carrier, place in places.items():
-        blocks, guides = around_pin(draft, slides, carrier, place)
+        blocks, guides = around_pin(draft, slides, carrier, place, axis.radius)
         plates += blocks
         around += guides
     if not plates:

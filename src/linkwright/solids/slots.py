@@ -9,9 +9,10 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.core.arrays import Complexes
+from linkwright.shapes.distance import gap
 from linkwright.shapes.shape import Piece, Shape
 
-#: What is shorter than this share of a slot is nothing.
+#: Pieces touch that overlap by more than this share of their radii.
 NOTHING = 1e-9
 
 
@@ -63,8 +64,8 @@ class Slot:
 
 
 def slotted(shape: Shape, slot: Slot) -> Shape:
-    """A plate with a slot: what lies beyond each of its four sides, with the wall around it, and a bar to it where
-    the slot is away from the plate."""
+    """A plate with a slot: what lies beyond each of its four sides, with the wall around it, and bars to it from all
+    that does not touch it."""
     straight = (each for piece in shape.pieces for each in _straight(piece))
     kept = tuple(piece for each in straight for piece in _beyond(each, slot))
     return Shape((*kept, *_tie(kept, slot), slot.ring), shape.holes)
@@ -118,9 +119,27 @@ def _clipped(corners: Complexes, above: Complexes, *, closed: bool) -> Complexes
 
 
 def _tie(pieces: tuple[Piece, ...], slot: Slot) -> Iterator[Piece]:
-    """A bar from the wall of a slot to a plate that does not touch it, as wide as the plate there."""
-    for bar in between(pieces, (slot.ring,)):
-        yield from _beyond(bar, slot)
+    """Bars from the wall of a slot to the parts of a plate that do not touch it: as wide as the plate there as far as
+    they leave the slot free, to the wall as thick as that."""
+    for part in connected((slot.ring, *pieces)):
+        if slot.ring not in part:
+            for bar in between(part, (slot.ring,)):
+                yield from _beyond(bar, slot)
+                yield Piece(bar.rings, slot.ring.radius)
+
+
+def connected(pieces: Sequence[Piece]) -> list[list[Piece]]:
+    """Pieces in groups that touch each other."""
+    groups: list[list[Piece]] = []
+    for piece in pieces:
+        touching = [each for each in groups if any(_touch(piece, other) for other in each)]
+        groups = [each for each in groups if each not in touching]
+        groups.append([*(other for each in touching for other in each), piece])
+    return groups
+
+
+def _touch(one: Piece, other: Piece) -> bool:
+    return gap(Shape((one,)), Shape((other,))) < -NOTHING * (one.radius + other.radius)
 
 
 def tied(shape: Shape, other: Shape) -> Shape:

@@ -24,8 +24,8 @@ from linkwright.shapes.shape import Shape
 from linkwright.solids.solid import Solid, Solids
 from linkwright.solids.solids_of import solids
 
-#: Shares: of an area, by which shapely's arcs of chords are off; of a size, by which profiles of chords are.
-AREA, CHORDS = 2e-3, 2e-4
+#: Shares: of an area, by which shapely's arcs of chords are off; of a size, by which profiles and rings are.
+AREA, CHORDS, RING = 2e-3, 2e-4, 6e-4
 #: Positions at which contacts are looked at.
 POSITIONS = 24
 
@@ -115,7 +115,7 @@ def _contacts(mechanism: lw.Mechanism, found: Solids) -> Iterator[str]:
                 yield from _sliding(guide, block, poses if guide is first else _reversed(poses))
         elif sorts <= {"cam", "roller", "wheel", "link"}:
             gaps = [gap(first.shape, second.shape, (complex(at), float(turn))) for at, turn in poses]
-            size = CHORDS * max(first.shape.bound[1], second.shape.bound[1])
+            size = (CHORDS if "cam" in sorts else RING) * max(first.shape.bound[1], second.shape.bound[1])
             if max(gaps) > size:
                 yield f"{pair} part by {max(gaps):.3g} m"
             if "cam" in sorts and min(gaps) < -size:
