@@ -31,6 +31,7 @@ STEPS: Mapping[str, str] = {
     "joints": "-m tests.random_cells --seeds 10",
     "branches": "-m tests.random_branches --count 400 --first {day}",
     "drawings": "-m tests.unit.kinematics.random_drawings --count 200 --off 2",
+    "solids": "-m tests.unit.solids.checks",
     "sheets": "-m tests.course_mistakes",
     "starts": "-m tests.unit.synthesis.trace_starts",
     "large": "-m tests.large_inputs",

@@ -38,7 +38,7 @@ def shape_of_links(draft: Draft, body: Body) -> Shape:
     for places in body.fixed:
         shape = tied(shape, around(places, draft.width(body)))
     for slot in body.slots:
-        shape = slotted(shape, slot)
+        shape = slotted(shape, slot, (place for _pin, place in draft.pinned(body)), draft.width(body))
     return shape
 
 

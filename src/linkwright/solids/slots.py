@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -63,11 +63,14 @@ class Slot:
         return True
 
 
-def slotted(shape: Shape, slot: Slot) -> Shape:
+def slotted(shape: Shape, slot: Slot, pins: Iterable[complex] = (), width: float = 0.0) -> Shape:
     """A plate with a slot: what lies beyond each of its four sides, with the wall around it, and bars to it from all
-    that does not touch it."""
+    that does not touch it; around ``pins`` as much of the ``width`` (m) as the slot leaves."""
     straight = (each for piece in shape.pieces for each in _straight(piece))
     kept = tuple(piece for each in straight for piece in _beyond(each, slot))
+    near = ((pin, slot.distance(pin)) for pin in pins)
+    eyes = [Piece((np.array([pin]),), away) for pin, away in near if 0.0 < away < 0.5 * width]
+    kept = (*kept, *eyes)
     return Shape((*kept, *_tie(kept, slot), slot.ring), shape.holes)
 
 

@@ -94,6 +94,8 @@ def _contacts(mechanism: lw.Mechanism, found: Solids) -> Iterator[str]:
     """Plates that touch by intent, over the cycle."""
     motion = lw.solve_motion(mechanism, failures="mark")
     rows = np.flatnonzero(motion.ok)
+    if not len(rows):
+        return
     rows = rows[np.unique(np.linspace(0, len(rows) - 1, POSITIONS).round().astype(int))]
     placed = placements(motion)
 
