@@ -75,6 +75,10 @@ def test_texts_and_data() -> None:
     assert list(columns)[:4] == ["first", "second", "joined", "gap [m]"]
 
 
+def test_what_does_not_move_holds_everywhere() -> None:
+    assert lw.interference(lw.load("gallery:truss")).exact
+
+
 def test_a_clearance_must_be_a_number() -> None:
     with pytest.raises(lw.LinkwrightError, match="clearance"):
         lw.interference(lw.loads(CRANK), clearance="2 mm")  # type: ignore[arg-type]

@@ -82,16 +82,17 @@ class Approaching:
             every, piece, low, -low, ends[:, 0], ends[:, 1], Curvatures(bound, unknown, unknown, unknown)
         )
 
-    def again(self, meetings: Meetings, over: Approaches) -> Approaches:
-        """Meetings (n,) over the same intervals as ``over`` (n,)."""
-        corner = self.outlines.corner[meetings.corner]
-        begin, end = self._at(meetings, over.piece, over.low), self._at(meetings, over.piece, over.high)
-        bound = self._place_bound[meetings.pose, over.piece]
-        bound = bound + self._turn_bound[meetings.pose, over.piece] * np.abs(corner)
-        unknown = np.full(len(bound), np.inf)
-        return Approaches(
-            meetings, over.piece, over.low, over.high, begin, end, Curvatures(bound, unknown, unknown, unknown)
+    def expanded(self, meetings: Meetings, over: Approaches, group: Indices) -> Approaches:
+        """Members (n,) of groups that approach over intervals, each of the one with its number in ``group``."""
+        pose, piece, corner = over.meetings.pose, over.piece, self.outlines.corner[meetings.corner]
+        begin, end = (
+            place[group] + turn[group] * corner
+            for place, turn in (self.paths.pose(pose, piece, x) for x in (over.low, over.high))
         )
+        bound = self._place_bound[pose, piece][group] + self._turn_bound[pose, piece][group] * np.abs(corner)
+        unknown = np.full(len(bound), np.inf)
+        curvatures = Curvatures(bound, unknown, unknown, unknown)
+        return Approaches(meetings, piece[group], over.low[group], over.high[group], begin, end, curvatures)
 
     def _at(self, meetings: Meetings, piece: Indices, x: Floats) -> Complexes:
         place, turn = self.paths.pose(meetings.pose, piece, x)

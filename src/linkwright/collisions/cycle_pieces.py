@@ -25,8 +25,8 @@ class CyclePieces:
     """Signals ``values`` (signals, pieces, POINTS) of a motion, of about size 1, at the Gauss points of pieces of its
     cycle, or of what is reached of it.
 
-    ``exact``: whether they hold between the positions that were solved; if not, as where positions follow no law in
-    time or something goes away without bound, every position is a piece without width.
+    ``exact``: whether they hold between the positions that were solved, if anything moves. Where positions follow no
+    law in time, or something goes away without bound, every position is a piece without width.
     """
 
     def __init__(self, motion: Motion, signals: Callable[[Motion], Floats], count: int) -> None:
@@ -42,8 +42,8 @@ class CyclePieces:
                 self._way: Indices = np.cumsum(begins) - 1
             else:
                 self._ways = None
-        self.exact = self._ways is not None
-        if not self.exact:
+        self.exact = self._ways is not None or not motion.inputs
+        if self._ways is None:
             self._take_positions(signals)
         self.count = len(self._low)
 
@@ -101,7 +101,7 @@ class CyclePieces:
     def spans(self, piece: Indices, low: Floats, high: Floats, slack: float) -> tuple[Span, ...]:
         """Intervals from ``low`` to ``high`` of pieces as times, joined where no more than a share ``slack`` of the
         cycle is between them; of positions alone from the first to the last of those that follow each other."""
-        if not self.exact:
+        if self._ways is None:
             number = np.unique(piece)
             breaks = np.flatnonzero(np.diff(number) > 1)
             begin, end = self._low[number], self._low[number]

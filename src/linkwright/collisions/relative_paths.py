@@ -60,19 +60,21 @@ class RelativePaths:
         return np.stack(rows)
 
     def _build(self, values: Floats) -> None:
-        count, size = len(self.pairs), self.size
-        of_pairs = values[: _OF_PAIR * count].reshape(count, _OF_PAIR, self.count, POINTS)
+        count = len(self.pairs)
+        series, curvature = values @ SERIES.T, values[: _OF_PAIR * count] @ _CURVATURE.T
+        self.place, self.turn = self._poses(series[: _OF_PAIR * count])
+        self.place_curvature, self.turn_curvature = self._poses(curvature)
+        self.square_curvature: Floats = self.size**2 * curvature[_OF_PAIR - 1 :: _OF_PAIR]
+        own = series[_OF_PAIR * count :].reshape(len(self.carriers), 4, self.count, POINTS)
+        self._own_place, self._own_turn = self.size * (own[:, 0] + 1j * own[:, 1]), own[:, 2] + 1j * own[:, 3]
+
+    def _poses(self, rows: Floats) -> tuple[Complexes, Complexes]:
+        """Places and turns (poses, pieces, orders) from the rows of pairs."""
+        of_pairs = rows.reshape(len(self.pairs), _OF_PAIR, *rows.shape[1:])
         place, turn, back = (of_pairs[:, k] + 1j * of_pairs[:, k + 1] for k in (0, 2, 4))
-        places = size * np.stack([place, back], axis=1).reshape(2 * count, self.count, POINTS)
-        turns = np.stack([turn, turn.conj()], axis=1).reshape(2 * count, self.count, POINTS)
-        self.place, self.turn = places @ SERIES.T, turns @ SERIES.T
-        self.place_curvature, self.turn_curvature = places @ _CURVATURE.T, turns @ _CURVATURE.T
-        self.square_curvature: Floats = size * size * of_pairs[:, 6] @ _CURVATURE.T
-        own = values[_OF_PAIR * count :].reshape(len(self.carriers), 4, self.count, POINTS) @ SERIES.T
-        self._own_place, self._own_turn = size * (own[:, 0] + 1j * own[:, 1]), own[:, 2] + 1j * own[:, 3]
-        if not self.exact:
-            for each in (self.place_curvature, self.turn_curvature, self.square_curvature):
-                each[:] = 0.0
+        shape = 2 * len(self.pairs), *rows.shape[1:]
+        places, turns = np.stack([place, back], axis=1), np.stack([turn, turn.conj()], axis=1)
+        return np.asarray(self.size * places.reshape(shape)), turns.reshape(shape)
 
     @cached_property
     def ends(self) -> tuple[Complexes, Complexes]:

@@ -120,7 +120,7 @@ class Search:
         for begin in range(0, max(1, len(over)), TOGETHER // 64):
             some = over.taken(slice(begin, begin + TOGETHER // 64))
             meetings, group = self.pairs.expanded(some.meetings)
-            parts.append(near(self.approaching.again(meetings, some.taken(group))))
+            parts.append(near(self.approaching.expanded(meetings, some, group)))
         return Approaches.joined(parts)
 
     def _narrow(self, over: Approaches, found: Nearest) -> None:
