@@ -285,6 +285,7 @@ def test_the_schema_names_every_section_and_is_plain_json() -> None:
         "inertia",
         "mass_centre",
         "colour",
+        "shape",
     }
 
 
