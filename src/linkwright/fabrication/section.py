@@ -18,7 +18,7 @@ from linkwright.fabrication.bodies import colours
 from linkwright.fabrication.columns import Bar, Piece
 from linkwright.fabrication.cut_parts import CutParts
 from linkwright.fabrication.parts_list import called
-from linkwright.fabrication.stack import Axis, Stack, across
+from linkwright.fabrication.stack import Axis, Stack
 from linkwright.pictures.picture import Vec, line_width, name_runs
 from linkwright.words import Translate
 
@@ -26,8 +26,8 @@ from linkwright.words import Translate
 #: what is next to them; smallest gap between axes; largest width of a plate to one side of a pin.
 THIN, HIGH, LETTERS, ROOM, GAP, HALF = 20.0, 620.0, 12.0, 9.0, 54.0, 46.0
 #: Distance between the lines of a hatching, how far axes stand out, how far a broken plate goes on behind its end,
-#: the depth of the wave there.
-HATCH, OUT, BROKEN, WAVE = 7.0, 14.0, 12.0, 2.4
+#: the depth of the wave there, the wall of a guide around its block.
+HATCH, OUT, BROKEN, WAVE, WALL = 7.0, 14.0, 12.0, 2.4, 10.0
 Span = tuple[float, float]
 
 
@@ -117,13 +117,18 @@ class _Section:
     def half(self, piece: Piece, place: int) -> float:
         """How far a plate goes on behind an axis at its end."""
         axis, name = self.axes[place], piece.bar.name
-        own = next((block for block in axis.blocks if block.name == name), None)
-        if own is not None:
-            return self.scale * across(own)
         if name not in axis.plates:
             return HALF
+        inserts = [self.half(each, place) for each in self._inserts(piece.bar, place)]
+        if inserts:
+            return max(inserts) + WALL
         wide = self.scale * self.stack.half_width(name, axis)
         return max(min(HALF, wide), self._through(piece.bar, place) + 7.0)
+
+    def _inserts(self, bar: Bar, place: int | None = None) -> list[Piece]:
+        """Pieces of the blocks that slide in a plate, all or those at one axis."""
+        found = [each for each in self.pieces if self.stack.slides_in(each.bar.name, bar.name)]
+        return found if place is None else [each for each in found if each.first <= place <= each.last]
 
     def _through(self, bar: Bar, place: int) -> float:
         """Half the width of what goes through a plate at an axis; 0 where nothing does."""
@@ -132,11 +137,7 @@ class _Section:
             return 0.0
         found = [self._radius(axis)]
         found += [0.5 * self.scale * hub.diameter for hub in axis.hubs if _meets(bar, self._span(hub.name))]
-        found += [
-            self.scale * across(block)
-            for block in axis.blocks
-            if block.name != bar.name and _meets(bar, self._span(block.name))
-        ]
+        found += [self.half(each, place) for each in self._inserts(bar, place)]
         return max(found)
 
     def _span(self, name: str) -> Span:
@@ -151,7 +152,7 @@ class _Section:
     def _widest(self, place: int) -> float:
         """How far all that is on an axis reaches to its sides."""
         axis = self.axes[place]
-        found = [across(block) for block in axis.blocks] + [0.5 * part.diameter for part in (*axis.hubs, *axis.rings)]
+        found = [0.5 * part.diameter for part in (*axis.hubs, *axis.rings)]
         if axis.pin is not None:
             found += [0.5 * axis.pin.diameter, 0.5 * axis.pin.head]
         return self.scale * max(found, default=0.0)
@@ -165,7 +166,7 @@ class _Section:
         found: list[_Text] = []
         for piece in sorted(self.pieces, key=lambda each: each.last - each.first or len(self.axes)):
             wide = self._wide(piece.bar.name) + 2.0 * ROOM
-            inside = range(piece.first + 1, piece.last + 1)
+            inside = self._free_gaps(piece)
             if inside:
                 gap = self._widest_gap(piece.bar, inside, wide)
                 wide += self._through(piece.bar, gap - 1) + self._through(piece.bar, gap)
@@ -176,7 +177,12 @@ class _Section:
             found.append(_Text(piece, gap, bool(inside)))
         return found
 
-    def _widest_gap(self, bar: Bar, inside: range, wide: float) -> int:
+    def _free_gaps(self, piece: Piece) -> list[int]:
+        """The gaps between axes through which a piece goes as one."""
+        filled = {gap for each in self._inserts(piece.bar) for gap in range(each.first + 1, each.last + 1)}
+        return [gap for gap in range(piece.first + 1, piece.last + 1) if gap not in filled]
+
+    def _widest_gap(self, bar: Bar, inside: Sequence[int], wide: float) -> int:
         """The middle one of the gaps that are wide enough for a name between any axes, else the widest one."""
         room = {k: self.gaps[k] - self._through(bar, k - 1) - self._through(bar, k) for k in inside}
         middle = 0.5 * (inside[0] + inside[-1])
@@ -225,10 +231,17 @@ class _Section:
         """The material of a piece between all that goes through it."""
         bar, (beyond_left, beyond_right) = piece.bar, self._beyond(piece)
         left, right = self.x[piece.first] - beyond_left, self.x[piece.last] + beyond_right
-        through = [(self.x[k], self._through(bar, k)) for k in range(piece.first, piece.last + 1)]
+        through = [
+            (self.x[k] - half, self.x[k] + half)
+            for k in range(piece.first, piece.last + 1)
+            if (half := self._through(bar, k))
+        ]
+        for each in self._inserts(bar):
+            before, behind = self._beyond(each)
+            through.append((self.x[each.first] - before, self.x[each.last] + behind))
         slope = 1.0 if list(self.stack.plates).index(bar.name) % 2 else -1.0
         text = next(each for each in self.texts if each.piece is piece)
-        for start, end in without((left, right), [(x - half, x + half) for x, half in through if half]):
+        for start, end in without((left, right), through):
             waves = (piece.broken_left and start == left, piece.broken_right and end == right)
             outline = self._outline((start, end), bar, waves)
             straight = (start + WAVE * waves[0], end - WAVE * waves[1])
@@ -254,11 +267,8 @@ class _Section:
         return np.array(rows).reshape(-1, 2)
 
     def _on_axis(self, place: int) -> Iterator[Face]:
-        """Blocks, hubs, washers and the pin on an axis."""
+        """Hubs, washers and the pin on an axis."""
         axis, radius = self.axes[place], self._radius(self.axes[place])
-        for block in axis.blocks:
-            if not block.is_plate:
-                yield from self._sleeve(place, radius, self.scale * across(block), self._span(block.name), block.name)
         for hub in axis.hubs:
             yield from self._sleeve(place, radius, 0.5 * self.scale * hub.diameter, self._span(hub.name), hub.name)
         for ring in axis.rings:

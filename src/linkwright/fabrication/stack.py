@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -17,10 +17,9 @@ from linkwright.solids.solid import Solid, Solids
 
 @dataclass(frozen=True, eq=False)
 class Axis:
-    """A pin or post, a block, or the middle of a plate without either: ``solid``; the ``plates`` in its section.
+    """A pin or post, or the middle of a plate without either: ``solid``; the ``plates`` in its section.
 
-    ``pin``: the part that it is; ``rings``: washers and spacers on it; ``hubs``: posts around it; ``blocks`` through
-    which it goes.
+    ``pin``: the part that it is; ``rings``: washers and spacers on it; ``hubs``: posts around it.
     """
 
     solid: Solid
@@ -28,7 +27,6 @@ class Axis:
     pin: Part | None = None
     rings: tuple[Part, ...] = ()
     hubs: tuple[Part, ...] = ()
-    blocks: tuple[Solid, ...] = ()
 
     @property
     def at(self) -> complex:
@@ -59,43 +57,39 @@ class Stack:
 
     @cached_property
     def axes(self) -> list[Axis]:
-        """Pins, posts, blocks without pins, and the middles of all other plates, from left to right."""
+        """Pins, posts, and the middles of all other plates, from left to right."""
         every = self.solids.by_name.values()
         round_solids = [solid for solid in every if solid.sort in ("pin", "post")]
         hubs = {pin.name: hubs_around(self.cut.layers, self.pose, pin) for pin in round_solids if pin.sort == "pin"}
         inner = {hub.name for each in hubs.values() for hub in each}
         found = [self._pinned(pin, hubs.get(pin.name, [])) for pin in round_solids if pin.name not in inner]
-        pinned = {block.name for each in found for block in each.blocks}
-        for solid in every:
-            if solid.sort == "block" and solid.name not in pinned:
-                found.append(Axis(solid, self._around(solid), blocks=(solid,)))
         held = {plate for each in found for plate in each.plates}
-        found += [Axis(solid, (solid.name,)) for solid in every if solid.is_plate and solid.name not in held]
+        alone = (solid for solid in every if solid.is_plate and solid.name not in held)
+        found += [Axis(solid, self._with_guides([solid.name])) for solid in alone]
         return sorted(found, key=lambda each: self.pose.world(each.solid.carrier, each.at).real)
 
     def _pinned(self, pin: Solid, hubs: Sequence[Solid]) -> Axis:
         """The axis of a pin or post."""
         parts = {part.name: part for part in self.cut.parts}
-        blocks = tuple(
-            each for each in self.solids.by_name.values() if each.sort == "block" and self._within(pin, each)
-        )
         rings = tuple(part for part in self.cut.parts if part.sort in ("spacer", "washer"))
         rings = tuple(part for part in rings if any(place.on == pin.name for place in part.places))
-        plates = (*pin.plates, *(plate for each in (*hubs, *blocks) for plate in self._around(each)))
-        around = tuple(parts[hub.name] for hub in hubs)
-        return Axis(pin, tuple(dict.fromkeys(plates)), parts[pin.name], rings, around, blocks)
+        plates = self._with_guides([*pin.plates, *(plate for hub in hubs for plate in hub.plates)])
+        return Axis(pin, plates, parts[pin.name], rings, tuple(parts[hub.name] for hub in hubs))
 
-    def _within(self, pin: Solid, block: Solid) -> bool:
-        """Whether a pin goes through a block."""
-        pair = (min(pin.name, block.name), max(pin.name, block.name))
-        if block.name in pin.plates:
-            return True
-        return pair in self.solids.joined and pin.carrier == block.carrier
+    def _with_guides(self, plates: Iterable[str]) -> tuple[str, ...]:
+        """Plates, and those in which the blocks among them slide."""
+        found = dict.fromkeys(plates)
+        for one, other in self.solids.level:
+            for block, guide in ((one, other), (other, one)):
+                if block in found and self.slides_in(block, guide):
+                    found[guide] = None
+        return tuple(found)
 
-    def _around(self, block: Solid) -> tuple[str, ...]:
-        """The plates in a section through a block or hub: its own and that of its guide."""
-        guides = [a if b == block.name else b for a, b in self.solids.level if block.name in (a, b)]
-        return tuple(dict.fromkeys((*block.plates, *guides)))
+    def slides_in(self, block: str, guide: str) -> bool:
+        """Whether a plate is a block that slides in another plate."""
+        level = (block, guide) in self.solids.level or (guide, block) in self.solids.level
+        sorts = [self.solids.by_name[each].sort for each in (block, guide)]
+        return level and sorts[0] == "block" and sorts[1] != "block"
 
     def height(self, plate: str) -> tuple[float, float]:
         """Lower and upper face of a plate, m."""
@@ -129,8 +123,6 @@ class Stack:
     def half_width(self, plate: str, on: Axis) -> float:
         """How far the material of a plate reaches around an axis, m."""
         place = on.at
-        if any((min(each.name, plate), max(each.name, plate)) in self.solids.level for each in on.blocks):
-            return max(map(across, on.blocks)) + 0.5 * float(np.diff(self.height(plate))[0])
         if on.solid.carrier != self.solids.by_name[plate].carrier:
             holes = [hole.centre for hole in self.plates[plate].holes if hole.pin == on.solid.name]
             if not holes:
@@ -138,9 +130,3 @@ class Stack:
             place = holes[0]
         outer = [loop for loop in self.plates[plate].loops if loop.area > 0]
         return min(edge.distance(place) for loop in outer for edge in loop.edges)
-
-
-def across(block: Solid) -> float:
-    """Half the width of a block across its guide, m."""
-    corners = block.shape.pieces[0].corners
-    return 0.5 * float(min(abs(corners[1] - corners[0]), abs(corners[2] - corners[1])))

@@ -130,3 +130,13 @@ def test_a_machine_without_layers_has_no_views() -> None:
     found = layers("press_double_crank")
     with pytest.raises(lw.LinkwrightError, match="collide"):
         found.plot()
+
+
+def test_a_sheet_has_the_section_where_the_file_says_how_the_machine_is_made() -> None:
+    found = lw.sheet("gallery:plate_linkage", size="A2", section={"only": ["mechanism", "layers", "table_layers"]})
+    assert set(found.panels) == {"mechanism", "layers", "table_layers"}
+    shown = texts(found.svg())
+    for part in cut("plate_linkage").parts:
+        if part.sort == "pin":
+            assert part.name in shown
+    assert "layers" not in lw.sheet("gallery:slider_crank_offset", size="A2").panels
