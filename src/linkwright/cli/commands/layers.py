@@ -30,7 +30,7 @@ the pairs that contradict, where in the cycle they meet, and what would help."""
     """\
 linkwright layers gallery:theo_jansen_leg
 linkwright layers press.yaml --supports both --ends flush
-linkwright layers press.yaml --fix crank=1 "guide slide=2" --output layers.csv
+linkwright layers press.yaml --fix crank=2 --output layers.csv
 linkwright layers gallery:theo_jansen_leg --plot side.svg --exploded exploded.svg""",
 )
 @model
