@@ -133,3 +133,11 @@ def test_the_free_bodies_and_the_chart_stand_in_the_report() -> None:
         assert found.missing == ()
         made = found.content(".html").decode()
         assert made.count("<figcaption") >= 2 or made.count("<figure") >= 2
+
+
+def test_parts_are_listed_and_drawn_where_the_file_says_how_it_is_made() -> None:
+    shown = page("gallery:plate_linkage", "parts")
+    found = lw.cut_parts(lw.load("gallery:plate_linkage"))
+    for text in ("material: aluminium", "crank", "coupler", "O1 Ø8.1", "washer", f"{1e3 * found['crank'].mass:.4g}"):
+        assert text in shown
+    assert "construction" in page("gallery:crank_rocker", "parts")

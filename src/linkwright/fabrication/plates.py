@@ -15,7 +15,7 @@ from linkwright.fabrication.wheel_plates import WheelPlates
 from linkwright.layering.arrangement import Layers
 from linkwright.mechanism.link_shape import material_of
 from linkwright.shapes.distance import contains
-from linkwright.shapes.shape import Shape
+from linkwright.shapes.shape import Shape, polygon
 from linkwright.solids.solid import Solid
 from linkwright.words import Message, _
 
@@ -50,12 +50,12 @@ class Plates:
         solids = self.layers.solids.by_name.values()
         height = self.layers.height
         for each in sorted((each for each in solids if each.is_plate), key=lambda each: height[each.name]):
-            shape = self.wheels.shape(each)
+            shape = self._eased(each) if each.sort == "block" else self.wheels.shape(each)
             yield self._part(each, shape, self._holes(each, shape), height[each.name])
         for each in solids:
             if each.sort == "block" and len(each.plates) > 1:
                 height_of_block = self._block(each)
-                yield self._part(each, each.shape, self._through(each, height_of_block), height_of_block)
+                yield self._part(each, self._eased(each), self._through(each, height_of_block), height_of_block)
 
     def notes(self) -> Iterator[Message]:
         """What is drawn as plates and is to be bought, or made otherwise."""
@@ -81,6 +81,18 @@ class Plates:
         if solid.name != "frame" or mechanism.frame.shape is not None:
             return holes
         return holes + mounting_holes(shape, holes, HEADS)
+
+    def _eased(self, block: Solid) -> Shape:
+        """The rectangle of a block, smaller by the fit than the slot in which it slides."""
+        construction = self.layers.mechanism.construction
+        fit = 0.0 if construction is None else construction.fit
+        corners = block.shape.pieces[0].corners
+        if not fit or len(corners) != 4:
+            return block.shape
+        centre, side = corners.mean(), corners[1] - corners[0]
+        local = (corners - centre) * (abs(side) / side)
+        local -= 0.5 * fit * (np.sign(local.real) + 1j * np.sign(local.imag))
+        return polygon(centre + local * (side / abs(side)))
 
     def _block(self, block: Solid) -> tuple[float, float]:
         """Between which heights a block is: through its guide and up, or down, to the plate of its link."""

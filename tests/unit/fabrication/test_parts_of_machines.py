@@ -95,3 +95,12 @@ def moved(placed: Mapping[str, Placement], body: Body, index: int) -> shapely.Ge
     """The polygon of a body at a position."""
     (c, s), (x, y) = placed[body[1]].direction[index], placed[body[1]].origin[index]
     return shapely.affinity.affine_transform(body[4], [c, -s, s, c, x, y])
+
+
+def test_a_block_has_the_fit_as_play_in_its_slot() -> None:
+    """The slot of the gallery's plate linkage is as wide as the slider by rule, 24 mm; the fit is 0.1 mm."""
+    found = lw.cut_parts(store.machine("plate_linkage"))
+    low, high = found["slider"].edge[0].box
+    (slot,) = [loop for loop in found["guide slide"].edge if loop.area < 0.0]
+    assert (high - low).imag == pytest.approx(23.9e-3, abs=1e-12)
+    assert (slot.box[1] - slot.box[0]).imag == pytest.approx(24e-3, abs=1e-12)
