@@ -60,8 +60,13 @@ def _holes(lines: CutLines) -> Iterator[Element]:
 
 
 def _path(loop: Loop) -> Element:
+    return element("path", {"d": path_of(loop)})
+
+
+def path_of(loop: Loop) -> str:
+    """The path data of an outline, mm, y downwards."""
     start = " ".join(_place(loop.edges[0].start))
-    return element("path", {"d": f"M{start}{''.join(map(_edge, loop.edges))}Z"})
+    return f"M{start}{''.join(map(_edge, loop.edges))}Z"
 
 
 def _edge(edge: Edge) -> str:

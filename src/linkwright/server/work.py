@@ -65,6 +65,7 @@ class Work:
             "tasks": self._tasks,
             "synthesis": self._synthesis,
             "metrics": self._metrics,
+            "room": self._room,
             "actuators": self._actuators,
             "run": self._run,
             "candidates": lambda a: self.background.state(),
@@ -173,6 +174,12 @@ class Work:
         from linkwright.server.metrics import metric_rows
 
         return {"metrics": metric_rows(text(asked, "text"), language_of(asked))}
+
+    def _room(self, asked: Plain) -> Plain:
+        """What the parts of a text's machine take up."""
+        from linkwright.server.room_taken import room_taken
+
+        return room_taken(text(asked, "text"), language_of(asked))
 
     def _actuators(self, asked: Plain) -> Plain:
         """What acts in motion under forces, as forms."""
