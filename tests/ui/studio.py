@@ -39,6 +39,7 @@ REQUESTS = (
     "tasks",
     "synthesis",
     "metrics",
+    "room",
     "actuators",
     "run",
     "candidates",

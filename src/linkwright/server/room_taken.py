@@ -15,9 +15,10 @@ from linkwright.fabrication.svg import path_of
 from linkwright.files.model_file import read_text
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
-from linkwright.layering.arrangement import Layers
+from linkwright.layering.arrangement import Conflict, Layers
 from linkwright.layering.layers_of import layers
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.server.loose import moving_part
 from linkwright.server.moved import moved
 from linkwright.shapes.boundary import boundary
 from linkwright.solids.solid import Solid
@@ -29,9 +30,13 @@ from linkwright.words.message import in_language
 ORDER = ("frame", "guide", "link", "wheel", "cam", "block", "roller", "post", "pin")
 
 
-def room_taken(text: str, language: str) -> Plain:
-    """Outlines, layers, the smallest gap and collisions of a text's machine; a ``sentence`` where there are none."""
-    mechanism, _unused = read_text(text, "model")
+def room_taken(text: str, language: str, *, layered: bool = True) -> Plain:
+    """Outlines, layers, the smallest gap and collisions of a text's machine; a ``sentence`` where there are none.
+
+    ``layered``: False for the outlines alone, which are found at once.
+    """
+    part = moving_part(text)
+    mechanism = part.document.mechanism if part else read_text(text, "model")[0]
     if mechanism is None:
         return _nothing("")
     motion = moved(mechanism).motion
@@ -42,20 +47,21 @@ def room_taken(text: str, language: str) -> Plain:
         outlines = [*_outlines(motion.mechanism, [*found.by_name.values()])]
     except LinkwrightError as error:
         return _nothing(error.translate(language))
-    notes = [in_language(each, language) for each in found.notes]
+    taken = {**_nothing(""), "outlines": outlines, "notes": [in_language(each, language) for each in found.notes]}
+    if not layered:
+        return taken
     try:
         arranged = layers(motion.mechanism)
     except LinkwrightError as error:
-        return {**_nothing(error.translate(language)), "outlines": outlines, "notes": notes}
+        return {**taken, "sentence": error.translate(language)}
     return {
+        **taken,
         "outlines": [{**each, "layer": arranged.layer.get(each["name"])} for each in outlines],
         "layers": [{"number": each.number, "plates": list(each.plates)} for each in reversed(arranged.layers)],
         "gap": _nearest(arranged, motion, language),
-        "collisions": _collisions(arranged, motion, language),
-        "conflicts": [in_language(each.sentence, language) for each in arranged.conflicts],
+        "collisions": _collisions(arranged, motion),
+        "conflicts": [_conflict(each, motion, language) for each in arranged.conflicts],
         "remedies": [in_language(each, language) for each in arranged.remedies],
-        "notes": notes,
-        "sentence": "",
     }
 
 
@@ -90,9 +96,10 @@ def _nearest(arranged: Layers, motion: Motion, language: str) -> Plain | None:
     return {
         "pair": [first, second],
         "size": gap.size,
+        "text": length_text(gap.size, 4),
         "share": _shares(motion, [gap.time])[0],
         "place": [gap.place.real, gap.place.imag],
-        "said": _(
+        "sentence": _(
             "smallest gap {gap}, {first} – {second} at {input}",
             gap=length_text(gap.size, 4),
             first=first,
@@ -102,13 +109,20 @@ def _nearest(arranged: Layers, motion: Motion, language: str) -> Plain | None:
     }
 
 
+def _conflict(conflict: Conflict, motion: Motion, language: str) -> Plain:
+    """A demand that contradicts others, and at which share of the cycle it can be seen."""
+    gap = conflict.gap
+    share = None if gap is None else _shares(motion, [gap.time])[0]
+    return {"sentence": in_language(conflict.sentence, language), "share": share}
+
+
 def _where(gap: Gap, motion: Motion) -> str:
     if np.isfinite(gap.input):
         return shown(gap.input, motion.mechanism.across, 4)
     return shown(gap.time, "time", 4)
 
 
-def _collisions(arranged: Layers, motion: Motion, language: str) -> list[Plain]:
+def _collisions(arranged: Layers, motion: Motion) -> list[Plain]:
     """Pairs that no layers keep apart, with the shares of the cycle in which they are too near."""
     names = {each.first for each in arranged.conflicts} | {each.second for each in arranged.conflicts}
     known = arranged.solids.by_name

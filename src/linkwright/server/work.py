@@ -179,7 +179,7 @@ class Work:
         """What the parts of a text's machine take up."""
         from linkwright.server.room_taken import room_taken
 
-        return room_taken(text(asked, "text"), language_of(asked))
+        return room_taken(text(asked, "text"), language_of(asked), layered=bool(asked.get("layered", True)))
 
     def _actuators(self, asked: Plain) -> Plain:
         """What acts in motion under forces, as forms."""

@@ -4,6 +4,7 @@ import type { Desk, Renamed } from "./desk";
 import type { Session } from "../session";
 import type { Vec } from "../shapes";
 import type { Gap } from "./outline";
+import type { Room } from "./room";
 import type { Sheet } from "./tools/tool";
 
 export const TOOLS = [
@@ -16,7 +17,7 @@ export type Tab = (typeof TABS)[number];
 export const DOCKS = ["curves", "run", "sweep", "synthesis", "optimise", "compare"] as const;
 export type DockName = (typeof DOCKS)[number];
 export const SHOWN = [
-  "velocities", "accelerations", "forces", "loads", "transmission", "paths", "limits", "centres", "names", "dimensions", "reach", "grid",
+  "velocities", "accelerations", "forces", "loads", "transmission", "paths", "limits", "centres", "names", "dimensions", "reach", "outlines", "grid",
 ] as const;
 export type ShownName = (typeof SHOWN)[number];
 /** What the tool Spring sets between two points. */
@@ -117,6 +118,8 @@ export class Bench {
   readonly foreseen = signal<Vec[][]>([]);
   /** A picture behind the drawing, kept with it in this browser. */
   readonly photo = signal<Photo | null>(null);
+  /** What the parts of the machine take up, while that is asked for. */
+  readonly room = signal<Room | null>(null);
   /** Brings elements into the picture; the sheet sets it. */
   reveal: (items: Item[]) => void = () => {};
 

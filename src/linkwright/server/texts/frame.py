@@ -163,6 +163,7 @@ PALETTE: dict[str, Message] = {
     "layer.names": _("Names"),
     "layer.dimensions": _("Dimensions"),
     "layer.reach": pgettext("layer", "Reach"),
+    "layer.outlines": pgettext("layer", "Outlines of the parts"),
     "layer.grid": _("Grid"),
     "zoom.selection": _("Fit the selection"),
     "go.inspect": pgettext("go", "Inspect what is selected"),

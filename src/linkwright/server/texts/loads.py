@@ -82,6 +82,7 @@ _SHOWN: dict[str, Message] = {
     "show.names": pgettext("shown", "Names"),
     "show.dimensions": _("Dimensions"),
     "show.reach": pgettext("shown", "Reach"),
+    "show.outlines": pgettext("shown", "Outlines"),
     "show.grid": _("Grid"),
     "scale": _("Scales of the arrows"),
     "scale.velocity": _("velocity {value}"),

@@ -28,6 +28,8 @@ SHEET: dict[str, Message] = {
     "sheet.snap_kept": _("Direction held, {angle}"),
     "sheet.gap_reach": _("reach of {link}"),
     "sheet.gap_aside": _("Put aside"),
+    "sheet.room_go": _("Show this position"),
+    "sheet.room_free": _("No two parts that move against each other share a layer"),
     "sheet.set": pgettext("value", "Set"),
     "sheet.key_next": pgettext("key", "next"),
     "sheet.key_set": pgettext("key", "set"),

@@ -1,4 +1,4 @@
-// What is laid over the machine at every drawing: limits, paths of selected points, loads, transmission angles, vectors,
+// What is laid under and over the machine at every drawing: outlines, limits, paths of selected points, loads, transmission angles, vectors,
 // the target curve and curves that are looked at.
 import { effect, signal } from "@preact/signals";
 import type { Vec } from "../../shapes";
@@ -6,8 +6,10 @@ import { line } from "../../strokes";
 import type { Overlay } from "../tools/tool";
 import { drawLimits, drawTransmission, drawVectorSizes } from "./analysis";
 import { Backdrop, keepPhotos } from "./backdrop";
+import { keepRoom } from "../room";
 import { showPhoto } from "../tools/photo";
 import { drawLoadMarks } from "./load_marks";
+import { Outlines } from "./outlines";
 import { type Scale, scalesOf } from "./scales";
 import type { Board } from "./sheet";
 
@@ -16,24 +18,28 @@ export class Layers {
   /** Of what is drawn as arrows. */
   readonly scales = signal<Scale[]>([]);
   private readonly backdrop: Backdrop;
+  private readonly outlines: Outlines;
   private readonly ends: (() => void)[];
 
   constructor(private readonly board: Board) {
     const { bench } = board;
-    this.backdrop = new Backdrop(board.host.querySelector("svg.below")!);
+    const below = board.host.querySelector("svg.below")!;
+    this.backdrop = new Backdrop(below);
+    this.outlines = new Outlines(board, below);
     board.layers.add(this.draw);
     const redrawn = effect(() => {
-      void [bench.photo.value, bench.target.value, bench.foreseen.value, bench.tool.value];
+      void [bench.photo.value, bench.target.value, bench.foreseen.value, bench.tool.value, bench.room.value];
       board.redraw();
     });
     board.host.addEventListener("dragover", (event) => event.preventDefault());
     board.host.addEventListener("drop", (event) => this.drop(event));
-    this.ends = [() => board.layers.delete(this.draw), redrawn, keepPhotos(bench)];
+    this.ends = [() => board.layers.delete(this.draw), redrawn, keepPhotos(bench), keepRoom(bench)];
   }
 
   private readonly draw = (over: Overlay) => {
     const { board } = this;
     this.backdrop.draw(board.bench.photo.value, board.camera);
+    this.outlines.draw(over);
     drawLimits(board, over);
     drawPaths(board, over);
     drawLoadMarks(board, over);

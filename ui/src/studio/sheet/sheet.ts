@@ -185,6 +185,11 @@ export class Board implements Sheet {
     return base && !base.added && !broken ? base.session : null;
   }
 
+  /** The machine that is drawn, of the present text or of one to which there have only been additions. */
+  get standsFor(): Session | null {
+    return this.broken ? null : (this.base?.session ?? null);
+  }
+
   /** The place of the machine among its positions that is shown. */
   get place(): number {
     const session = this.bench.session.value;

@@ -6,7 +6,7 @@ import type { Layers } from "./layers";
 
 /** Signs of quantities; the others are words. */
 const SIGNS: Partial<Record<ShownName, string>> = { velocities: "v", accelerations: "a", forces: "F", transmission: "μ" };
-const ORDER: ShownName[] = ["velocities", "accelerations", "forces", "loads", "transmission", "paths", "limits", "centres", "names", "dimensions", "reach", "grid"];
+const ORDER: ShownName[] = ["velocities", "accelerations", "forces", "loads", "transmission", "paths", "limits", "centres", "names", "dimensions", "reach", "outlines", "grid"];
 
 /** Whether the drawing or its machine has what could be shown. */
 function has(bench: Bench, name: ShownName): boolean {
@@ -22,6 +22,7 @@ function has(bench: Bench, name: ShownName): boolean {
     case "centres": return masses;
     case "names": case "grid": return true;
     case "dimensions": return Object.keys(picture?.links ?? {}).length > 0;
+    case "outlines": return data !== undefined;
     case "reach": return bench.gap.value !== null;
   }
 }

@@ -8,6 +8,7 @@ import { Keys } from "./keys";
 import { Layers } from "./layers";
 import "./loads.css";
 import { Pointers } from "./pointer";
+import { RoomLine } from "./room-line";
 import { Board } from "./sheet";
 import { Scales, ShowBar } from "./show";
 
@@ -38,6 +39,7 @@ export function Stage({ bench }: { bench: Bench }) {
       <div class="paper" ref={host} tabIndex={0} role="application" aria-label={bench.say("sheet.label")} aria-describedby="sheet-keys" />
       <p class="unseen" id="sheet-keys">{bench.say("sheet.keys")}</p>
       <div class="sheet-foot">
+        <RoomLine bench={bench} />
         {board && layers && <Scales board={board} layers={layers} />}
         <ShowBar bench={bench} />
       </div>
