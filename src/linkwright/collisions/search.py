@@ -142,7 +142,8 @@ class Search:
         own, meetings = self.outlines, over.meetings
         reach = self.radius(meetings)
         slack = own.corner_slack[meetings.corner] + own.side_slack[meetings.side]
-        self._take(over, bounds, 2.0 * slack - reach, found)
+        alone = bounds.crosses & (own.corner_members[meetings.corner] * own.side_members[meetings.side] == 1)
+        self._take(over, bounds._replace(crosses=alone), 2.0 * slack - reach, found)
         best = found.size[meetings.pair]
         return over.taken((bounds.least - reach < best - self.tolerance) & (best > 0.0))
 
