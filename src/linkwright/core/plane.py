@@ -93,7 +93,7 @@ def _turns_left(chain: Complexes) -> Flags:
 
 
 def area(corners: Complexes) -> float:
-    """Area of a polygon (m,), m², counter-clockwise positive."""
+    """Area of a polygon (m,), m², counter-clockwise positive; its first corner may be repeated at the end."""
     gap = corners - corners[0]
     return 0.5 * float(np.vdot(gap[:-1], gap[1:]).imag)
 

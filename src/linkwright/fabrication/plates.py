@@ -13,7 +13,7 @@ from linkwright.fabrication.mounting import mounting_holes
 from linkwright.fabrication.part import Hole, Part, Place
 from linkwright.fabrication.wheel_plates import WheelPlates
 from linkwright.layering.arrangement import Layers
-from linkwright.mechanism.link_shape import material_of
+from linkwright.mechanism.plate import material_of
 from linkwright.shapes.distance import contains
 from linkwright.shapes.shape import Shape, polygon
 from linkwright.solids.solid import Solid
@@ -67,7 +67,7 @@ class Plates:
     def _part(self, solid: Solid, shape: Shape, holes: tuple[Hole, ...], height: tuple[float, float]) -> Part:
         low, high = height
         bored = Shape(shape.pieces, tuple((each.centre, each.radius) for each in holes))
-        material = material_of(self.layers.mechanism, solid.carrier)
+        material = material_of(self.layers.mechanism.link(solid.carrier), self.layers.mechanism.construction)
         layer = min(self.layers.layer[plate] for plate in solid.plates)
         place = Place(solid.carrier, 0j, low, solid.name)
         part = Part(solid.name, "plate", bored, high - low, material.name, 0.0, layer, (place,), holes)

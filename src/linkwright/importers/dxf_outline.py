@@ -208,7 +208,7 @@ class _Chains:
 
 def _nested(contours: Sequence[Contour], unit: str, remarks: Remarks) -> list[Complexes]:
     """The outer ring counter-clockwise, then those within it clockwise; a remark about each that is not."""
-    rings = [(each, area(np.append(each.places, each.places[0]))) for each in contours if len(each.places) > 2]
+    rings = [(each, area(each.places)) for each in contours if len(each.places) > 2]
     rings.sort(key=lambda each: -abs(each[1]))
     found: list[Complexes] = []
     for contour, size in rings:

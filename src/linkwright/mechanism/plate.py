@@ -1,11 +1,14 @@
-"""The plate of a link alone: what it is by its points and its shape, its outline, and holes at its points."""
+"""The plate of a link: what it is by its points and its shape, its outline in the link's axes, its material."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
+from linkwright.core.plane import convex_hull
 from linkwright.errors import LinkwrightError
-from linkwright.mechanism.construction import LinkShape, ShapeKind
+from linkwright.mechanism.construction import Construction, LinkShape, Material, ShapeKind
 from linkwright.mechanism.link import Link
 from linkwright.shapes.shape import Piece, Shape, bar, disc, polygon
 from linkwright.words import _
@@ -15,9 +18,37 @@ IN_LINE = 1e-9
 
 
 def plate(link: Link, width: float) -> Shape:
-    """The outline of a link's plate without holes; ``width``, m: of one whose shape has none of its own."""
-    own = LinkShape() if link.shape is None else link.shape
-    return _plate(link, own, own.width or width)
+    """The outline of a link's plate without holes; ``width``, m: of one whose shape has none of its own.
+
+    Raises LinkwrightError for a link that takes no room (``shape: none``).
+    """
+    shape, kind = link.shape or LinkShape(), shape_kind(link)
+    points = [complex(*each) for each in link.points.values()]
+    match kind:
+        case "none":
+            raise LinkwrightError(
+                _('the link "{link}" takes no room (shape: none)', code="shapes.none", link=link.name)
+            )
+        case "disc":
+            return disc(points[0], shape.radius or 0.0)
+        case "outline":
+            outer, *holes = ([complex(*each) for each in ring] for ring in shape.rings)
+            return polygon(outer, holes)
+        case "plate":
+            return around(points, shape.width or width)
+    return bar(path_of(link, shape), shape.width or width)
+
+
+def around(points: Sequence[complex], width: float) -> Shape:
+    """The convex hull of points, widened by half a width (m): a bar where they are in line, a disc about one."""
+    if in_line(points):
+        return bar(dict.fromkeys(ends(points)), width)
+    return Shape((Piece((convex_hull(np.array(points)),), 0.5 * width, filled=True),))
+
+
+def material_of(link: Link, construction: Construction | None) -> Material:
+    """The material of a link's plate: its own, else that of the construction, else steel."""
+    return (link.shape and link.shape.material) or (construction or Construction()).material
 
 
 def shape_kind(link: Link) -> ShapeKind:
@@ -32,14 +63,14 @@ def needs_width(link: Link) -> bool:
     return shape_kind(link) in ("bar", "plate", "path")
 
 
-def in_line(points: list[complex]) -> bool:
+def in_line(points: Sequence[complex]) -> bool:
     """Whether points lie on one line."""
     first, last = ends(points)
     way = last - first
     return all(abs((way.conjugate() * (each - first)).imag) <= IN_LINE * abs(way) ** 2 for each in points)
 
 
-def ends(points: list[complex]) -> tuple[complex, complex]:
+def ends(points: Sequence[complex]) -> tuple[complex, complex]:
     """The two ends of points that are in line; of others two that are far apart."""
     first = max(points, key=lambda each: abs(each - points[0]))
     last = max(points, key=lambda each: abs(each - first))
@@ -55,36 +86,3 @@ def path_of(link: Link, shape: LinkShape) -> list[complex]:
         return points
     first, last = ends(points)
     return sorted(dict.fromkeys(points), key=lambda each: ((last - first).conjugate() * (each - first)).real)
-
-
-def hull(points: list[complex]) -> list[complex]:
-    """The corners of the convex hull, counter-clockwise (Andrew's monotone chain); two of points in line."""
-
-    def chain(order: list[complex]) -> list[complex]:
-        found: list[complex] = []
-        for each in order:
-            while len(found) > 1 and ((found[-1] - found[-2]).conjugate() * (each - found[-1])).imag <= 0.0:
-                found.pop()
-            found.append(each)
-        return found[:-1]
-
-    order = sorted(dict.fromkeys(points), key=lambda each: (each.real, each.imag))
-    return chain(order) + chain(order[::-1]) if len(order) > 1 else order
-
-
-def _plate(link: Link, shape: LinkShape, width: float) -> Shape:
-    kind = shape_kind(link)
-    points = [complex(*each) for each in link.points.values()]
-    match kind:
-        case "none":
-            raise LinkwrightError(
-                _('the link "{link}" takes no room (shape: none)', code="shapes.none", link=link.name)
-            )
-        case "disc":
-            return disc(points[0], shape.radius or 0.0)
-        case "outline":
-            outer, *holes = ([complex(*each) for each in ring] for ring in shape.rings)
-            return polygon(outer, holes)
-        case "plate" if not in_line(points):
-            return Shape((Piece((np.array(hull(points)),), 0.5 * width, filled=True),))
-    return bar(path_of(link, shape), width)

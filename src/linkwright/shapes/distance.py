@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import cmath
+
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Flags, Floats
@@ -26,20 +28,38 @@ def core_distances(piece: Piece, points: Complexes) -> Floats:
     """Distance of each point (k,) from the core of a piece, m; 0 within a filled one."""
     sides = piece.sides
     start, step = sides[:, 0], sides[:, 1] - sides[:, 0]
-    squared = np.maximum(np.abs(step) ** 2, np.finfo(float).tiny)
     found = np.empty(len(points))
     rows = max(AT_ONCE // len(sides), 1)
     for first in range(0, len(points), rows):
-        gap = points[first : first + rows, None] - start
-        share = np.clip((gap * step.conj()).real / squared, 0.0, 1.0)
-        away = np.abs(gap - share * step).min(axis=1)
+        places = points[first : first + rows, None]
+        away = np.abs(from_sides(start, step, places)).min(axis=1)
         if piece.filled:
             # even-odd: sides that a ray to the right crosses
+            gap = places - start
             above = (gap.imag < 0.0) != (gap.imag < step.imag)
             right = (gap.real * step.imag < gap.imag * step.real) == (step.imag > 0.0)
             away[np.count_nonzero(above & right, axis=1) % 2 == 1] = 0.0
         found[first : first + rows] = away
     return found
+
+
+def from_sides(start: Complexes, step: Complexes, places: Complexes) -> Complexes:
+    """Vectors (m) to places from the nearest place on each side, which goes from its ``start`` by a ``step``."""
+    gap = places - start
+    share = np.clip((gap * step.conj()).real / np.maximum(np.abs(step) ** 2, np.finfo(float).tiny), 0.0, 1.0)
+    return np.asarray(gap - share * step)
+
+
+def nearest(one: Piece, other: Piece) -> tuple[complex, complex]:
+    """Where the cores of two pieces that do not overlap come nearest to each other: on the one, on the other."""
+    found = []
+    for a, b in ((one, other), (other, one)):
+        places, sides = a.corners[:, None], b.sides
+        away = from_sides(sides[:, 0], sides[:, 1] - sides[:, 0], places)
+        corner, side = divmod(int(np.abs(away).argmin()), len(sides))
+        ends = complex(a.corners[corner]), complex(a.corners[corner] - away[corner, side])
+        found.append(ends if a is one else ends[::-1])
+    return min(found, key=lambda ends: abs(ends[0] - ends[1]))
 
 
 def gap(a: Shape, b: Shape, pose: tuple[complex, float] = (0j, 0.0)) -> float:
@@ -50,11 +70,8 @@ def gap(a: Shape, b: Shape, pose: tuple[complex, float] = (0j, 0.0)) -> float:
     more than that they do. Bored holes count as material.
     """
     origin, turn = pose
-    way = np.exp(1j * turn)
-    moved = [
-        Piece(tuple(origin + way * ring for ring in piece.rings), piece.radius, piece.filled) for piece in b.pieces
-    ]
-    return min(_cores(one, other) - one.radius - other.radius for one in a.pieces for other in moved)
+    moved = b.moved(cmath.exp(1j * turn), origin)
+    return min(_cores(one, other) - one.radius - other.radius for one in a.pieces for other in moved.pieces)
 
 
 def _cores(one: Piece, other: Piece) -> float:

@@ -7,8 +7,10 @@ from itertools import accumulate
 
 import numpy as np
 
-from linkwright.core.arrays import Complexes, Floats, Indices
+from linkwright.core.arrays import Complexes, Flags, Indices
+from linkwright.shapes.distance import contains, from_sides
 from linkwright.shapes.loop import Edge, Loop
+from linkwright.shapes.shape import polygon
 
 #: Turn (sine) below which a corner is none, and the cosine below which a side turns back on the one before it.
 STRAIGHT, BACK = 1e-12, -1.0 + 1e-9
@@ -46,8 +48,8 @@ def clear_of_each_other(rings: Sequence[Complexes], near: float) -> bool:
     sides = ((start[one], way[one]), (start[other], way[other]))
     if (_across(*sides[0], *sides[1]) & _across(*sides[1], *sides[0])).any():
         return False
-    places = ((start[other], *sides[0]), (end[other], *sides[0]), (start[one], *sides[1]), (end[one], *sides[1]))
-    return all(bool((_distance(*each) > near).all()) for each in places)
+    places = ((*sides[0], start[other]), (*sides[0], end[other]), (*sides[1], start[one]), (*sides[1], end[one]))
+    return all(bool((np.abs(from_sides(*each)) > near).all()) for each in places)
 
 
 def loops_of(rings: Sequence[Complexes]) -> list[Loop]:
@@ -55,7 +57,8 @@ def loops_of(rings: Sequence[Complexes]) -> list[Loop]:
     each kind in order of size, the others clockwise."""
     found = []
     for number, ring in enumerate(rings):
-        depth = sum(_within(ring[0], other) for other in (*rings[:number], *rings[number + 1 :]))
+        others = (polygon(other) for other in (*rings[:number], *rings[number + 1 :]))
+        depth = sum(bool(contains(other, ring[:1])[0]) for other in others)
         loop = Loop(tuple(map(Edge, ring.tolist(), np.roll(ring, -1).tolist())))
         found.append(loop if (loop.area > 0.0) == (depth % 2 == 0) else loop.reversed)
     return sorted(found, key=lambda loop: (loop.area < 0.0, -abs(loop.area)))
@@ -73,25 +76,7 @@ def _firsts(rings: Sequence[Complexes]) -> list[int]:
     return [*accumulate(map(len, rings[:-1]), initial=0)]
 
 
-def _across(
-    start: Complexes, way: Complexes, other: Complexes, along: Complexes
-) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
+def _across(start: Complexes, way: Complexes, other: Complexes, along: Complexes) -> Flags:
     """Whether sides have both ends of others on different sides of their lines."""
     from_start = (way.conj() * (other - start)).imag
     return np.asarray(from_start * (way.conj() * (other + along - start)).imag < 0.0)
-
-
-def _distance(place: Complexes, start: Complexes, way: Complexes) -> Floats:
-    """Distance of each place from a side."""
-    gap = place - start
-    share = np.clip((gap * way.conj()).real / np.abs(way) ** 2, 0.0, 1.0)
-    return np.asarray(np.abs(gap - share * way))
-
-
-def _within(place: complex, ring: Complexes) -> bool:
-    """Whether a place lies within a ring, by the even-odd rule."""
-    start, end = ring - place, np.roll(ring, -1) - place
-    crossed = (start.imag < 0.0) != (end.imag < 0.0)
-    a, b = start[crossed], end[crossed]
-    right = a.real - a.imag / (b.imag - a.imag) * (b.real - a.real) > 0.0
-    return bool(np.count_nonzero(right) % 2)

@@ -137,7 +137,7 @@ def tours(piece: Piece, near: float) -> Iterator[list[Segment]]:
             ways = [corners, corners[::-1]]
             if len(piece.rings) == 1 and piece.radius and clear_of_each_other([ring], near):
                 # only the outer side of a ring that does not cross itself
-                ways = ways[:1] if area(np.append(ring, ring[0])) > 0.0 else ways[1:]
+                ways = ways[:1] if area(ring) > 0.0 else ways[1:]
             yield from (around(way, piece.radius) for way in (ways if piece.radius else ways[:1]))
         elif piece.radius:
             yield around([*corners, *reversed(corners[1:-1])], piece.radius)

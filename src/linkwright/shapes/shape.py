@@ -58,10 +58,15 @@ class Shape:
         reach = (np.abs(piece.corners - centre).max() + piece.radius for piece in self.pieces)
         return centre, float(max(reach))
 
-    @property
-    def corner_count(self) -> int:
-        """How many corners the cores have together."""
-        return sum(len(piece.corners) for piece in self.pieces)
+    def moved(self, turn: complex, origin: complex = 0j) -> Shape:
+        """The shape turned about its origin by a unit complex number, then moved by a vector (m)."""
+        return Shape(
+            tuple(
+                Piece(tuple(origin + turn * ring for ring in piece.rings), piece.radius, piece.filled)
+                for piece in self.pieces
+            ),
+            tuple((origin + turn * centre, radius) for centre, radius in self.holes),
+        )
 
 
 def disc(centre: complex, radius: float) -> Shape:

@@ -12,8 +12,8 @@ from linkwright.core.arrays import Floats
 from linkwright.kinetostatics.forces import Forces
 from linkwright.mechanism.construction import LinkShape
 from linkwright.mechanism.link import Link, Vec
-from linkwright.mechanism.link_shape import needs_width, path_of, shape_kind
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.mechanism.plate import needs_width, path_of, shape_kind
 from linkwright.mechanism.wheels_and_cams import disc_radii
 from linkwright.parts.beams.axis import LinkAxis
 from linkwright.parts.beams.cut import STRAIGHT, LinkCut, LinkLine

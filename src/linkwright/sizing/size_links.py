@@ -13,8 +13,8 @@ from linkwright.core.quantity import shown
 from linkwright.errors import LinkwrightError
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.construction import MATERIALS, Construction, LinkShape, Material
-from linkwright.mechanism.link_shape import needs_width
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.mechanism.plate import needs_width
 from linkwright.registry import no_such
 from linkwright.sizing.allowed import Allowed
 from linkwright.sizing.given import GivenSizes, given_sizes

@@ -9,7 +9,7 @@ import numpy as np
 
 from linkwright.shapes.distance import core_distances
 from linkwright.solids.draft import Draft
-from linkwright.solids.frame import COVER
+from linkwright.solids.links import COVER
 from linkwright.solids.mounting import roller_pin
 from linkwright.words import _
 
@@ -86,8 +86,7 @@ def held_by(draft: Draft, axes: Iterable[Axis]) -> dict[str, tuple[str, ...]]:
 def _crossed(draft: Draft, axis: Axis) -> frozenset[str]:
     """Carriers of plates that come over a pin of the frame which is not theirs."""
     place, found = axis.places["frame"], set()
-    clearance = 0.0 if draft.construction is None else draft.construction.clearance or 0.0
-    radius = axis.radius * NEAR + clearance
+    radius = axis.radius * NEAR + (draft.construction.clearance or 0.0)
     for solid in draft.solids.values():
         if solid.sort == "frame" or not solid.is_plate or solid.carrier in axis.places.keys() - {"frame"}:
             continue

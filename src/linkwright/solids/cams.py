@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from linkwright.core.arrays import Complexes
+from linkwright.core.plane import area
 from linkwright.joints.cam import CamJoint
 from linkwright.mechanism.wheels_and_cams import CamShape, full_turn
 from linkwright.shapes.shape import Piece, Shape, disc, polygon
@@ -77,8 +78,7 @@ def _rings(draft: Draft, cam: Cam) -> list[Complexes]:
 
 
 def _counter_clockwise(ring: Complexes) -> Complexes:
-    area = float((ring.conj() * np.roll(ring, -1)).imag.sum())
-    return ring if area > 0.0 else ring[::-1]
+    return ring if area(ring) > 0.0 else ring[::-1]
 
 
 def cam_shape(draft: Draft, cam: Cam) -> Shape:

@@ -14,8 +14,8 @@ from linkwright.joints.lower_pair import SlidingJoint
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.placement import Placement, placements
 from linkwright.mechanism.construction import Construction
-from linkwright.mechanism.link_shape import material_of
 from linkwright.mechanism.mechanism import Mechanism
+from linkwright.mechanism.plate import material_of
 from linkwright.shapes.shape import Shape
 from linkwright.sizing.sizes import Sizes
 from linkwright.solids.carriers import Carriers
@@ -79,9 +79,9 @@ class Draft:
         return placements(self.motion)
 
     @cached_property
-    def construction(self) -> Construction | None:
-        """How the machine is made, as far as its file says it."""
-        return self.mechanism.construction
+    def construction(self) -> Construction:
+        """How the machine is made: as its file says, else as usual."""
+        return self.mechanism.construction or Construction()
 
     @property
     def near(self) -> float:
@@ -146,8 +146,8 @@ class Draft:
 
     def plate(self, name: str, sort: Sort, carrier: str, shape: Shape, link: str, *joined: str) -> None:
         """Adds a plate as thick and of the same material as those of a link."""
-        thickness, density = self.sizes.thickness[link], material_of(self.mechanism, link).density
-        self.add(Solid(name, sort, carrier, shape, (name,), 0.0, thickness, density), *joined)
+        density = material_of(self.mechanism.link(link), self.construction).density
+        self.add(Solid(name, sort, carrier, shape, (name,), 0.0, self.sizes.thickness[link], density), *joined)
 
     def is_free(self, body: Body) -> bool:
         """Whether nothing says yet what the plate of some moving links is."""
@@ -156,13 +156,12 @@ class Draft:
 
     def bore(self, plates: Iterable[str], places: Mapping[str, complex], radius: float) -> None:
         """Holes in plates for a pin or a post, at its ``places`` by the carriers of the plates."""
-        fit = 0.0 if self.construction is None else self.construction.fit
         for name in plates:
             carrier = self.solids[name].carrier
             if carrier in places:
                 holes, place = self.bores.setdefault(name, {}), places[carrier]
                 same = next((each for each in holes if abs(each - place) <= self.near), place)
-                holes[same] = max(holes.get(same, 0.0), radius + 0.5 * fit)
+                holes[same] = max(holes.get(same, 0.0), radius + 0.5 * self.construction.fit)
 
     def stroke(self, guide: SlidingJoint) -> tuple[float, float]:
         """The smallest and the largest displacement of a block, m; (0, 0) where no position is reached."""

@@ -7,12 +7,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from linkwright.joints.lower_pair import SlidingJoint
-from linkwright.mechanism.plate import plate, shape_kind
+from linkwright.mechanism.plate import shape_kind
 from linkwright.shapes.distance import gap
 from linkwright.shapes.shape import Shape, bar, joined, polygon
 from linkwright.solids.cylinders import is_cylinder, plan_cylinder
 from linkwright.solids.draft import Body, Draft
-from linkwright.solids.links import moved
+from linkwright.solids.links import of_link
 from linkwright.solids.mounting import clear, fasten
 from linkwright.solids.slots import Slot
 
@@ -97,8 +97,7 @@ def _has_slot(draft: Draft, link: str, slot: Slot) -> bool:
     """Whether a given outline leaves the way of a block free, as a slot of its own or along an edge."""
     if not _outline(draft, link):
         return False
-    own = moved(plate(draft.mechanism.link(link), 0.0), draft.carriers.places[link])
-    return gap(own, polygon(slot.corners(-PLAY * slot.half))) > 0.0
+    return gap(of_link(draft, link), polygon(slot.corners(-PLAY * slot.half))) > 0.0
 
 
 def block_place(draft: Draft, joint: SlidingJoint, width: float, shift: float = 0.0) -> Slot:

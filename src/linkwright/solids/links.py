@@ -1,16 +1,14 @@
-"""The plates of links: bars, plates, eyes, with slots for the blocks that slide in them."""
+"""The plates of links and of the frame: bars, plates, eyes, with slots for the blocks that slide in them."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-import numpy as np
-
-from linkwright.mechanism.link_shape import ends, hull, in_line, link_shape, shape_kind
-from linkwright.shapes.shape import Piece, Shape, bar, joined
-from linkwright.solids.carriers import Place
+from linkwright.mechanism.plate import around, plate, shape_kind
+from linkwright.shapes.shape import Shape, joined
 from linkwright.solids.draft import Body, Draft
 from linkwright.solids.slots import slotted, tied
+
+#: The frame's plate over the machine.
+COVER = "cover"
 
 
 def add_links(draft: Draft) -> None:
@@ -20,6 +18,25 @@ def add_links(draft: Draft) -> None:
             body.plate = body.carrier
             shape = body.shape or shape_of_links(draft, body)
             draft.plate(body.plate, body.sort, body.carrier, shape, body.links[0])
+
+
+def add_frame(draft: Draft) -> None:
+    """The base plate around all that is held by the frame, and the cover."""
+    body = draft.bodies["frame"]
+    own = draft.mechanism.frame.shape
+    if takes_no_room(draft, body) and own is not None:
+        return
+    places = [place for _name, place in draft.pinned(body)]
+    welded = ((link, point) for link in body.links[1:] for point in draft.mechanism.link(link).points)
+    places += [draft.carriers.place(link, point) for link, point in welded]
+    places += body.held
+    if own is None and not places:
+        return
+    body.plate = "frame"
+    shape = around(places, draft.width(body)) if own is None else shape_of_links(draft, body)
+    draft.plate("frame", "frame", "frame", shape, "frame")
+    if draft.construction.supports == "both":
+        draft.plate(COVER, "frame", "frame", shape, "frame")
 
 
 def takes_no_room(draft: Draft, body: Body) -> bool:
@@ -33,7 +50,7 @@ def _kind(draft: Draft, link: str) -> str:
 
 def shape_of_links(draft: Draft, body: Body) -> Shape:
     """One plate for links that move as one, with their slots."""
-    parts = [_of_link(draft, link) for link in body.links if _kind(draft, link) != "none"]
+    parts = [of_link(draft, link) for link in body.links if _kind(draft, link) != "none"]
     shape = joined(parts)
     for places in body.fixed:
         shape = tied(shape, around(places, draft.width(body)))
@@ -42,24 +59,7 @@ def shape_of_links(draft: Draft, body: Body) -> Shape:
     return shape
 
 
-def _of_link(draft: Draft, link: str) -> Shape:
+def of_link(draft: Draft, link: str) -> Shape:
     """A link's own shape in the axes of its carrier, without holes."""
-    shape = link_shape(draft.mechanism, link, draft.sizes.width, lambda _pin: 0.0)
-    return moved(shape, draft.carriers.places[link])
-
-
-def around(places: Sequence[complex], width: float) -> Shape:
-    """A bar along places in line, the hull of others, a disc about one, all widened by half a width."""
-    found = [*places]
-    if in_line(found):
-        return bar(dict.fromkeys(ends(found)), width)
-    return Shape((Piece((np.array(hull(found)),), 0.5 * width, filled=True),))
-
-
-def moved(shape: Shape, place: Place) -> Shape:
-    """A shape in the axes of the carrier."""
-    pieces = (
-        Piece(tuple(place.origin + place.turn * ring for ring in each.rings), each.radius, each.filled)
-        for each in shape.pieces
-    )
-    return Shape(tuple(pieces), tuple((place.of(centre), radius) for centre, radius in shape.holes))
+    place = draft.carriers.places[link]
+    return plate(draft.mechanism.link(link), draft.sizes.width[link]).moved(place.turn, place.origin)

@@ -40,9 +40,8 @@ def _add_pin(draft: Draft, slides: list[Slide], axles: list[Axle], axis: Axis, f
     if not plates:
         return
     through = tuple(dict.fromkeys(plates))
-    flush = draft.construction is not None and draft.construction.ends == "flush"
     carrier = "frame" if "frame" in places else next(iter(places))
-    head = 0.0 if flush else HEAD * axis.radius
+    head = HEAD * axis.radius if draft.construction.ends == "heads" else 0.0
     pin = Solid(f"pin {axis.name}", "pin", carrier, disc(places[carrier], axis.radius), through, head)
     draft.add(pin, *through, *around)
     draft.bore(through, places, axis.radius)

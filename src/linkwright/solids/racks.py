@@ -10,10 +10,9 @@ from linkwright.shapes.shape import Shape, polygon
 from linkwright.solids.draft import Body, Draft
 from linkwright.solids.mounting import fasten
 
-#: From the pitch line to the back of a rack, beyond the last place of a pinion, and height of its teeth, in modules.
+#: From the pitch line to the back of a rack, beyond the last place of a pinion, and height of its teeth (ISO 53 A):
+#: modules.
 BACK, TEETH_BEYOND, TEETH = 3.75, 2.0, 2.25
-#: Height of the teeth in modules (ISO 53 A).
-HIGH = 2.25
 #: The same without teeth, and radius of a post: shares of the link's width.
 BARE, BEYOND, POST = 0.5, 0.5, 0.15
 
@@ -48,7 +47,7 @@ class Rack:
     @property
     def posts(self) -> tuple[complex, complex]:
         """Places at its ends at which posts hold it, below the roots of its teeth."""
-        inset = 0.5 * (self.depth - HIGH * self.module)
+        inset = 0.5 * (self.depth - TEETH * self.module)
         middle = self.start + inset * self.across
         return middle + inset * self.way, middle + (self.length - inset) * self.way
 

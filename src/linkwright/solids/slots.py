@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.core.arrays import Complexes
-from linkwright.shapes.distance import gap
+from linkwright.shapes.distance import gap, nearest
 from linkwright.shapes.shape import Piece, Shape
 
 #: Pieces touch that overlap by more than this share of their radii.
@@ -159,18 +159,3 @@ def between(pieces: Sequence[Piece], others: Sequence[Piece]) -> Iterator[Piece]
     a, b, piece, other = min(gaps, key=lambda each: abs(each[0] - each[1]) - each[2].radius - each[3].radius)
     if abs(a - b) > max(piece.radius, other.radius):
         yield Piece((np.array([a, b]),), piece.radius or other.radius)
-
-
-def nearest(first: Piece, second: Piece) -> tuple[complex, complex]:
-    """Where the cores of two pieces come nearest to each other."""
-    found = []
-    for a, b in ((first, second), (second, first)):
-        for place in a.corners:
-            start, way = b.sides[:, 0], b.sides[:, 1] - b.sides[:, 0]
-            square = np.maximum(np.abs(way) ** 2, 1e-300)
-            share = np.clip(((place - start) * np.conj(way)).real / square, 0.0, 1.0)
-            feet = start + share * way
-            k = int(np.argmin(np.abs(feet - place)))
-            ends = complex(place), complex(feet[k])
-            found.append(ends if a is first else ends[::-1])
-    return min(found, key=lambda each: abs(each[0] - each[1]))

@@ -9,9 +9,8 @@ from linkwright.sizing.sizes import sizes_of
 from linkwright.solids.blocks import add_blocks, plan_blocks
 from linkwright.solids.cams import add_cams, plan_cams
 from linkwright.solids.draft import Draft
-from linkwright.solids.frame import add_frame
 from linkwright.solids.guides import add_guides, plan_slides
-from linkwright.solids.links import add_links
+from linkwright.solids.links import add_frame, add_links
 from linkwright.solids.pins import add_pins
 from linkwright.solids.solid import Solids
 from linkwright.solids.wheels import add_wheels, plan_wheels

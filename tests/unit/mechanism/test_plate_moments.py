@@ -8,7 +8,7 @@ import random
 import numpy as np
 import pytest
 
-from linkwright.mechanism.plate import hull
+from linkwright.core.plane import convex_hull
 from linkwright.mechanism.plate_moments import disc_moments, hull_moments, outline_moments
 from linkwright.shapes.properties import area_moments
 from linkwright.shapes.shape import Piece, Shape, bar, polygon
@@ -33,7 +33,7 @@ def test_a_plate_has_the_moments_of_its_outline(kind: str) -> None:
         if name != kind:
             continue
         area, (x, y), polar = hull_moments(points, radius).about_centre
-        corners = np.array(hull([complex(*each) for each in points]))
+        corners = convex_hull(np.array([complex(*each) for each in points]))
         exact = area_moments(Shape((Piece((corners,), radius, filled=True),)))
         assert (area, x, y, polar) == pytest.approx(
             (exact.area, exact.centre.real, exact.centre.imag, exact.polar), rel=1e-11, abs=1e-12
