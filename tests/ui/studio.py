@@ -40,6 +40,7 @@ REQUESTS = (
     "synthesis",
     "metrics",
     "room",
+    "side_view",
     "actuators",
     "run",
     "candidates",

@@ -21,7 +21,9 @@ from linkwright.words import _
 EXPORTS = (".html", ".xlsx", ".csv", ".json", ".svg", ".pdf", ".png", ".dxf")
 REPORTS, SHEETS = (".report.pdf", ".report.html"), (".sheet.pdf", ".sheet.svg", ".sheet.dxf")
 EXERCISES = (".exercise.pdf", ".exercise.zip")
-TAKEN = (*REPORTS, *SHEETS, *EXERCISES, *EXPORTS)
+#: What a machine is cut from: drawings of all parts, sheets, list.
+PARTS = ".parts.zip"
+TAKEN = (PARTS, *REPORTS, *SHEETS, *EXERCISES, *EXPORTS)
 #: Variants of an exercise that are made at once, at most, and how many where nobody says.
 MOST, USUAL = 200, 10
 #: By how much dimensions change where only they are named.
@@ -34,13 +36,18 @@ def handed_out(text: str, ending: str, language: str, folder: str, asked: Mappin
     Of exercises ``asked`` says: ``count`` of variants, ``seed``, ``vary`` {address: "8 %" or [low, high]}, or
     [address] (by 8 %), ``ask`` [result], ``at`` (input); what is missing is as the text has it, or usual.
     ``.exercise.pdf`` has the sheets of students, ``.exercise.zip`` these with the key, and questions for Moodle, QTI
-    and PrairieLearn.
+    and PrairieLearn. ``.parts.zip`` has what ``linkwright cut`` writes.
     """
     if ending not in TAKEN:
         raise LinkwrightError(_("the studio hands out no file {ending!r}", code="studio.no_ending", ending=ending))
     if ending in EXERCISES:
         return _exercise(text, ending, language, asked)
     document = Document(text, "model", read_text)
+    if ending == PARTS:
+        from linkwright.fabrication.cut_parts import cut_parts
+        from linkwright.fabrication.files import files_of
+
+        return zipped(files_of(cut_parts(document.mechanism), language=language))
     with TemporaryDirectory() as place:
         path = Path(place) / f"machine.{ending.rsplit('.', 1)[-1]}"
         if ending in REPORTS:

@@ -14,6 +14,7 @@ from linkwright.server.loads import applied
 
 if TYPE_CHECKING:
     from linkwright.kinematics.motion import Motion
+    from linkwright.mechanism.mechanism import Mechanism
 
 
 def picture_of(root: Node) -> Plain:
@@ -50,6 +51,21 @@ def completed(shown: Plain, motion: Motion) -> Plain:
         if known is not None:
             places[point] = [float(each) for each in there.point(known).position[0]]
     return {**shown, "points": {**shown["points"], **places}, "placed": list(places)}
+
+
+def weighed(shown: Plain, mechanism: Mechanism) -> Plain:
+    """What can be drawn, with mass (kg), moment of inertia (kg·m²) and centre (m) of links that their shape gives."""
+    found = {
+        name: {
+            **shown["masses"].get(name, {}),
+            "mass": link.mass,
+            "inertia": link.inertia,
+            "centre": [*link.mass_centre] if isinstance(link.mass_centre, tuple) else link.mass_centre,
+        }
+        for name, link in mechanism.links.items()
+        if link.mass_from_shape
+    }
+    return {**shown, "masses": {**shown["masses"], **found}} if found else shown
 
 
 def _as_drawn(motion: Motion) -> Motion:

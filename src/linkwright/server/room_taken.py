@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from linkwright.collisions.gaps import Gap, Moving, smallest_gaps
 from linkwright.core.data import Plain
 from linkwright.core.outputs import row_name
 from linkwright.core.quantity import length_text, shown
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, ModelError
 from linkwright.fabrication.svg import path_of
 from linkwright.files.model_file import read_text
 from linkwright.kinematics.motion import Motion
@@ -21,6 +22,7 @@ from linkwright.mechanism.mechanism import Mechanism
 from linkwright.server.loose import moving_part
 from linkwright.server.moved import moved
 from linkwright.shapes.boundary import boundary
+from linkwright.sizing.sizes import sizes_of
 from linkwright.solids.solid import Solid
 from linkwright.solids.solids_of import solids
 from linkwright.words import _
@@ -31,33 +33,37 @@ ORDER = ("frame", "guide", "link", "wheel", "cam", "block", "roller", "post", "p
 
 
 def room_taken(text: str, language: str, *, layered: bool = True) -> Plain:
-    """Outlines, layers, the smallest gap and collisions of a text's machine; a ``sentence`` where there are none.
+    """Outlines, sizes (m) of links, layers from the frame up, the smallest gap and collisions of a text's machine; a
+    ``sentence`` where there are none.
 
-    ``layered``: False for the outlines alone, which are found at once.
+    ``layered``: False for what is found at once, which leaves out layers and what depends on them.
     """
-    part = moving_part(text)
-    mechanism = part.document.mechanism if part else read_text(text, "model")[0]
-    if mechanism is None:
-        return _nothing("")
-    motion = moved(mechanism).motion
-    if motion is None:
-        return _nothing(_("the machine does not move yet").translate(language))
     try:
+        motion = _motion(text)
+        if motion is None:
+            return _nothing(_("the machine does not move yet").translate(language))
         found = solids(motion.mechanism)
         outlines = [*_outlines(motion.mechanism, [*found.by_name.values()])]
+    except ModelError:
+        return _nothing("")
     except LinkwrightError as error:
         return _nothing(error.translate(language))
-    taken = {**_nothing(""), "outlines": outlines, "notes": [in_language(each, language) for each in found.notes]}
+    taken = {
+        **_nothing(""),
+        "outlines": outlines,
+        "sizes": _sizes(motion.mechanism),
+        "notes": [in_language(each, language) for each in found.notes],
+    }
     if not layered:
         return taken
     try:
-        arranged = layers(motion.mechanism)
+        arranged = _arranged(text)
     except LinkwrightError as error:
         return {**taken, "sentence": error.translate(language)}
     return {
         **taken,
         "outlines": [{**each, "layer": arranged.layer.get(each["name"])} for each in outlines],
-        "layers": [{"number": each.number, "plates": list(each.plates)} for each in reversed(arranged.layers)],
+        "layers": [{"number": each.number, "plates": list(each.plates)} for each in arranged.layers],
         "gap": _nearest(arranged, motion, language),
         "collisions": _collisions(arranged, motion),
         "conflicts": [_conflict(each, motion, language) for each in arranged.conflicts],
@@ -65,9 +71,43 @@ def room_taken(text: str, language: str, *, layered: bool = True) -> Plain:
     }
 
 
+def side_view(text: str, language: str) -> Plain:
+    """The section through the pins of a text's machine as ``svg``; "" where it has no layers."""
+    try:
+        if _motion(text) is None or (arranged := _arranged(text)).conflicts:
+            return {"svg": ""}
+        return {"svg": arranged.plot("side", title="", language=language).svg()}
+    except LinkwrightError:
+        return {"svg": ""}
+
+
+@lru_cache(maxsize=4)
+def _motion(text: str) -> Motion | None:
+    """The motion of a text's machine, of the part of it that moves; raises ModelError where it is none."""
+    part = moving_part(text)
+    mechanism, findings = (part.document.mechanism, []) if part else read_text(text, "model")
+    if mechanism is None:
+        raise ModelError(findings)
+    return moved(mechanism).motion
+
+
+@lru_cache(maxsize=4)
+def _arranged(text: str) -> Layers:
+    """The layers of a text's machine that moves; they may take seconds."""
+    motion = _motion(text)
+    assert motion is not None
+    return layers(motion.mechanism)
+
+
+def _sizes(mechanism: Mechanism) -> Plain:
+    """Width and thickness by link, m."""
+    found = sizes_of(mechanism)
+    return {name: {"width": found.width[name], "thickness": found.thickness[name]} for name in found.width}
+
+
 def _nothing(sentence: str) -> Plain:
     lists: Plain = {name: [] for name in ("outlines", "layers", "collisions", "conflicts", "remedies", "notes")}
-    return {**lists, "gap": None, "sentence": sentence}
+    return {**lists, "gap": None, "sizes": {}, "sentence": sentence}
 
 
 def _outlines(mechanism: Mechanism, found: Sequence[Solid]) -> Iterator[Plain]:

@@ -24,7 +24,7 @@ from linkwright.server.handing_out import handed_out
 from linkwright.server.loose import moving_part
 from linkwright.server.moved import gap_data, moved
 from linkwright.server.outline import outline
-from linkwright.server.picture import completed
+from linkwright.server.picture import completed, weighed
 from linkwright.server.request import length_unit, mapping, mappings, number, numbers, text
 from linkwright.server.sketching import sketched
 from linkwright.server.structure import structure_of
@@ -66,6 +66,7 @@ class Work:
             "synthesis": self._synthesis,
             "metrics": self._metrics,
             "room": self._room,
+            "side_view": self._side_view,
             "actuators": self._actuators,
             "run": self._run,
             "candidates": lambda a: self.background.state(),
@@ -181,6 +182,12 @@ class Work:
 
         return room_taken(text(asked, "text"), language_of(asked), layered=bool(asked.get("layered", True)))
 
+    def _side_view(self, asked: Plain) -> Plain:
+        """The section through the pins of a text's machine."""
+        from linkwright.server.room_taken import side_view
+
+        return side_view(text(asked, "text"), language_of(asked))
+
     def _actuators(self, asked: Plain) -> Plain:
         """What acts in motion under forces, as forms."""
         from linkwright.server.run_forms import forms
@@ -250,7 +257,7 @@ def solved(text: str, language: str, folder: str = "") -> Plain:
             if motion is None:
                 assert error is not None
                 raise error
-            found["picture"] = completed(found["picture"], motion)
+            found["picture"] = weighed(completed(found["picture"], motion), motion.mechanism)
             found["model"] = page_data([(motion, part.document if part else text)], language)["models"][0]
     except LinkwrightError as error:
         found["sentence"] = "" if found["gap"] or unfinished(error.code) else error.translate(language)

@@ -59,7 +59,7 @@ def red(shown: Hand) -> list[str]:
     return found
 
 
-def test_outlines_go_along_and_collide_and_the_line_leads_to_the_place(chromium: Any, tmp_path: Path) -> None:
+def test_outlines_go_along_and_collide_and_parts_are_made_at_the_right(chromium: Any, tmp_path: Path) -> None:
     (tmp_path / "m.yaml").write_text(FIXED, encoding="utf-8")
     with hand(chromium, tmp_path, "m.yaml") as shown:
         tab = shown.tab
@@ -91,3 +91,28 @@ def test_outlines_go_along_and_collide_and_the_line_leads_to_the_place(chromium:
         assert tab.evaluate("() => bench.page.phase.value") == pytest.approx(degrees % 360.0 / 360.0, abs=1e-3)
         assert tab.locator("circle.nearest:not([visibility=hidden])").count() == 1
         assert is_about(shown, "rocker", "O2", "B")
+
+        is_made(shown)
+
+
+def is_made(shown: Hand) -> None:
+    """Shape, layer and mass are set at the right, the layers seen from the side."""
+    tab, pane = shown.tab, shown.tab.locator(".pane")
+    tab.evaluate("() => bench.select({ kind: 'link', name: 'crank' })")
+    pane.get_by_role("button", name=shown.translate("studio.insp.shape")).click()
+    for key, value in (("made_width", "20"), ("layer", "2")):
+        field = pane.get_by_label(shown.translate(f"studio.insp.{key}"), exact=True)
+        field.fill(value)
+        field.press("Enter")
+        shown.settle()
+    pane.get_by_label(shown.translate("studio.insp.kind"), exact=True).select_option("plate")
+    shown.settle()
+    pane.get_by_role("switch", name=shown.translate("studio.insp.from_shape")).click()
+    shown.settle()
+    crank = shown.entries["links"]["crank"]
+    assert crank["shape"] == {"kind": "plate", "width": "20 mm"} and crank["mass"] == "from shape"
+    assert shown.entries["construction"]["layers"] == {"crank": 2}
+    tab.evaluate("() => { bench.tab.value = 'structure'; }")
+    picture = pane.locator("img.side")
+    picture.wait_for()
+    assert picture.evaluate("async (image) => { await image.decode(); return image.naturalWidth; }") > 100

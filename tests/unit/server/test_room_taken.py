@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import cmath
+import io
 import math
 import re
-from itertools import pairwise
+import zipfile
 
 import pytest
 
-from linkwright.server.room_taken import room_taken
+from linkwright.server.handing_out import handed_out
+from linkwright.server.room_taken import room_taken, side_view
 
 #: A four-bar of bars 16 mm wide on pins of 3 mm, the coupler next to the crank.
 FOURBAR = """
@@ -80,7 +82,7 @@ def test_the_smallest_gap_in_one_layer_is_where_its_sentence_says() -> None:
     degrees = float(re.findall(r"(-?[\d.]+)°", gap["sentence"])[0])
     assert (degrees - 360.0 * gap["share"] + 180.0) % 360.0 == pytest.approx(180.0, abs=0.1)
     numbers = [each["number"] for each in found["layers"]]
-    assert all(low == high - 1 for high, low in pairwise(numbers)) and numbers[-1] == 0
+    assert numbers == list(range(len(numbers)))
     assert {each["name"]: each["layer"] for each in found["outlines"]}["frame"] == 0
     assert found["collisions"] == [] == found["conflicts"]
 
@@ -89,3 +91,15 @@ def test_a_drawing_that_does_not_move_takes_no_room_yet() -> None:
     assert room_taken("format: 1\nname: x\n", "en")["outlines"] == []
     still = FOURBAR.replace("length: 110 mm", "length: 300 mm")
     assert room_taken(still, "en")["sentence"] == "the machine does not move yet"
+
+
+def test_layers_are_seen_from_the_side_where_there_are_any() -> None:
+    svg = side_view(FREE, "en")["svg"]
+    assert all(f">{name}<" in svg for name in ("crank", "coupler", "rocker"))
+    assert side_view(FOURBAR, "en") == side_view("format: 1\nname: x\n", "en") == {"svg": ""}
+
+
+def test_the_parts_are_handed_out_together() -> None:
+    found = handed_out(FREE, ".parts.zip", "en", "", {})
+    names = zipfile.ZipFile(io.BytesIO(found)).namelist()
+    assert {"crank.dxf", "crank.svg", "coupler.dxf", "rocker.dxf", "parts.csv", "parts.xlsx"} <= {*names}

@@ -120,6 +120,8 @@ export class Bench {
   readonly photo = signal<Photo | null>(null);
   /** What the parts of the machine take up, while that is asked for. */
   readonly room = signal<Room | null>(null);
+  /** How many panes show something of it. */
+  readonly lookers = signal(0);
   /** Brings elements into the picture; the sheet sets it. */
   reveal: (items: Item[]) => void = () => {};
 

@@ -52,6 +52,8 @@ export interface Load {
  *  or null: midway. */
 export interface Mass {
   mass: number | null;
+  /** kg·m², of one that its shape gives. */
+  inertia?: number;
   size: string;
   centre: string | [number, number] | null;
 }

@@ -1,5 +1,6 @@
 // What the parts of the machine take up, as the server finds it: outlines at once, layers and what collides after them.
 import { effect } from "@preact/signals";
+import { useEffect } from "preact/hooks";
 import type { Vec } from "../shapes";
 import type { Bench } from "./bench";
 
@@ -23,7 +24,9 @@ export interface Placed {
 
 export interface Room {
   outlines: PartOutline[];
-  /** From above. */
+  /** Width and thickness by link, m. */
+  sizes: Record<string, { width: number; thickness: number }>;
+  /** From the frame up. */
   layers: { number: number; plates: string[] }[];
   gap: (Placed & { pair: [string, string]; size: number; text: string; share: number; place: Vec }) | null;
   /** Pairs that no layers keep apart, with the shares of the cycle in which they are too near. */
@@ -49,7 +52,7 @@ export function keepRoom(bench: Bench): () => void {
     if (asked !== wanted) return;
     if (!found) wanted = null;
     else if (layered || !bench.room.peek()) bench.room.value = { ...found, layered };
-    else bench.room.value = { ...bench.room.peek()!, outlines: found.outlines, sentence: found.sentence };
+    else bench.room.value = { ...bench.room.peek()!, outlines: found.outlines, sizes: found.sizes, sentence: found.sentence };
   };
   // Layers may take seconds: they are looked for once at a time.
   const arrange = async () => {
@@ -74,7 +77,16 @@ export function keepRoom(bench: Bench): () => void {
 }
 
 /** Whether anything that is shown is about room. */
-const looksAt = (bench: Bench) => bench.shows("outlines");
+const looksAt = (bench: Bench) => bench.shows("outlines") || bench.lookers.value > 0;
+
+/** The room of the machine, which is asked for as long as this is shown. */
+export function useRoom(bench: Bench): Room | null {
+  useEffect(() => {
+    bench.lookers.value++;
+    return () => void bench.lookers.value--;
+  }, []);
+  return bench.room.value;
+}
 
 /** Whether a share of the cycle is in a span of shares. */
 export const within = (share: number, [from, to]: [number, number], closed: boolean) => [0, ...(closed ? [-1, 1] : [])].some((turn) => share + turn >= from && share + turn <= to);

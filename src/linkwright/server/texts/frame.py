@@ -118,6 +118,7 @@ SHARE: dict[str, Message] = {
     "export.html": _("Living page"),
     "export.sheet.pdf": _("Drawing sheet as PDF"),
     "export.sheet.dxf": _("Drawing sheet as DXF"),
+    "export.parts.zip": _("Parts to cut (DXF, SVG, list)"),
     "export.exercise.pdf": _("Exercises for students…"),
     "exercise.title": _("Exercises for students"),
     "exercise.help": _(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from linkwright.fields.material import LABELS as MATERIALS
 from linkwright.laws.base import LABELS
 from linkwright.words import Message, _, pgettext
 
@@ -105,6 +106,37 @@ INSPECTOR: dict[str, Message] = {
     "insp.loads_on": _("Loads on it"),
     "insp.mass": pgettext("inspector", "Mass"),
     "insp.inertia": pgettext("inspector", "Inertia"),
+    "insp.from_shape": _("From the shape"),
+    "insp.shape": pgettext("inspector", "Shape"),
+    "insp.kind": pgettext("shape", "Kind"),
+    "insp.cut_usual": pgettext("shape", "usual"),
+    "insp.cut_bar": pgettext("shape", "Bar along the points"),
+    "insp.cut_plate": pgettext("shape", "Plate around the points"),
+    "insp.cut_path": pgettext("shape", "Bent bar"),
+    "insp.cut_outline": pgettext("shape", "Outline"),
+    "insp.cut_disc": pgettext("shape", "Disc about the first point"),
+    "insp.cut_none": pgettext("shape", "None: takes no room"),
+    "insp.construction": pgettext("inspector", "Construction"),
+    "insp.as_machine": _("as the machine"),
+    "insp.made_usual": pgettext("size", "usual"),
+    "insp.made_thickness": pgettext("construction", "Thickness"),
+    "insp.made_width": pgettext("construction", "Width"),
+    "insp.made_radius": pgettext("construction", "Radius"),
+    "insp.made_pin_radius": pgettext("construction", "Pin radius"),
+    "insp.made_clearance": pgettext("construction", "Clearance"),
+    "insp.made_supports": pgettext("construction", "Supports"),
+    "insp.made_cantilevered": _("on one side"),
+    "insp.made_both": _("on both sides"),
+    "insp.made_ends": _("Ends of pins"),
+    "insp.made_heads": _("with heads"),
+    "insp.made_flush": pgettext("pin", "flush"),
+    "insp.layer": pgettext("inspector", "Layer"),
+    "insp.layers": pgettext("inspector", "Layers"),
+    "insp.layer_number": pgettext("inspector", "Layer {number}"),
+    "insp.layer_bare": _("heads of pins alone"),
+    "insp.arranging": _("Looking for layers…"),
+    "insp.side_view": _("Section through the pins, with the layers"),
+    **{f"insp.of_{name}": label for name, label in MATERIALS.items()},
     "insp.centre": pgettext("inspector", "Centre"),
     "insp.midway": pgettext("inspector", "midway"),
     "insp.at_point": pgettext("inspector", "at {name}"),

@@ -34,7 +34,7 @@ export function fileCommands(bench: Bench): Record<"fresh" | "open" | "drafts" |
 
 /** What is handed out, by the ending of the file; null is a line. */
 export const ENDINGS = [
-  ".report.pdf", ".report.html", ".html", null, ".sheet.pdf", ".sheet.dxf", ".exercise.pdf", null, ".xlsx", ".csv", ".json", null, ".svg", ".pdf", ".png", ".dxf",
+  ".report.pdf", ".report.html", ".html", null, ".sheet.pdf", ".sheet.dxf", ".parts.zip", ".exercise.pdf", null, ".xlsx", ".csv", ".json", null, ".svg", ".pdf", ".png", ".dxf",
 ] as const;
 const SIGNS: Record<string, IconName> = { ".xlsx": "table", ".csv": "table", ".json": "file_text", ".html": "play", ".report.pdf": "file_text", ".report.html": "file_text", ".exercise.pdf": "pencil" };
 

@@ -11,6 +11,7 @@ import { LoadList } from "./loads_list";
 import { Look } from "./look";
 import { Mass } from "./mass";
 import { placeOf, useNow } from "./now";
+import { Shape } from "./shape";
 import { inUnit, si } from "./quantities";
 import type { PanelProps } from "./selected";
 
@@ -33,6 +34,7 @@ export function LinkPanel({ bench, item, entries }: PanelProps) {
           <button type="button" class="add" aria-label={say("insp.add_point")} title={say("insp.add_point")} onClick={() => (bench.select(item), (bench.tool.value = "plate"))}><Icon name="plus" size={13} /></button>
         </Chips>
       </div>
+      <Shape bench={bench} name={name} link={link} entries={entries} />
       <Mass bench={bench} name={name} link={link} points={own} />
       {loads.length > 0 && <Section bench={bench} id="insp.loads_on" title={say("insp.loads_on")} count={loads.length}>{() => <LoadList bench={bench} entries={entries} names={loads} />}</Section>}
       {own.length + also.length > 1 && <Look bench={bench} path={[...path, "colour"]} link={link} />}

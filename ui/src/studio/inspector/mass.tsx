@@ -2,9 +2,13 @@
 import { signal } from "@preact/signals";
 import type { Bench } from "../bench";
 import { Icon } from "../frame/icons";
-import { perform, put, set, unset } from "./change";
+import { perform, put, set, tell, unset } from "./change";
 import { type Path, type Table, word, words } from "./entries";
-import { Choice, Quantity, Row, Section, Select, Typing } from "./fields";
+import { Choice, Quantity, Row, Section, Select, Switch, Typing } from "./fields";
+import { inUnit } from "./quantities";
+
+/** What the file has in place of a mass that the shape gives. */
+const FROM_SHAPE = "from shape";
 
 type Shape = "flat" | "round" | "tube";
 
@@ -26,22 +30,43 @@ const MATERIALS: [string, string][] = [
 const bars = signal<Record<string, Bar>>({});
 
 export function Mass({ bench, name, link, points }: { bench: Bench; name: string; link: Table; points: string[] }) {
-  const { say } = bench, path: Path = ["links", name], bar = bars.value[name];
+  const { say } = bench, path: Path = ["links", name], bar = bars.value[name], shaped = word(link.mass) === FROM_SHAPE;
   const begin = () => void take(bench, name, { shape: "flat", size: SIZES.flat, density: MATERIALS[0][1], length: word(link.length) });
   return (
     <Section bench={bench} id="insp.mass" title={say("insp.mass")}>
       {() => (
         <>
           <div class="form">
+            {points.length > 0 && <Switch label={say("insp.from_shape")} on={shaped} set={(on) => void tell(bench, on ? fromShape(bench, name, link) : unset(bench, [...path, "mass"]))} />}
+          </div>
+          {shaped ? <Weighed bench={bench} name={name} /> : <><div class="form">
             <Quantity label={say("insp.mass")} value={word(link.mass)} unit="kg" preset="0" optional set={(text) => (drop(name), put(bench, [...path, "mass"], text))} />
             <Quantity label={say("insp.inertia")} value={word(link.inertia)} unit="kg·m²" preset="0" optional set={(text) => (drop(name), put(bench, [...path, "inertia"], text))} />
             <Centre bench={bench} path={[...path, "mass_centre"]} value={link.mass_centre === undefined ? "" : word(link.mass_centre) || "place"} place={words(link.mass_centre)} points={points} />
           </div>
-          {bar ? <BarSection bench={bench} name={name} bar={bar} length={word(link.length)} /> : points.length > 1 && <button type="button" class="text" onClick={begin}><Icon name="mass" size={16} />{say("insp.from_bar")}</button>}
+          {bar ? <BarSection bench={bench} name={name} bar={bar} length={word(link.length)} /> : points.length > 1 && <button type="button" class="text" onClick={begin}><Icon name="mass" size={16} />{say("insp.from_bar")}</button>}</>}
         </>
       )}
     </Section>
   );
+}
+
+/** Mass and inertia as the shape gives them. */
+function Weighed({ bench, name }: { bench: Bench; name: string }) {
+  const { say } = bench, found = bench.desk.solved.value.picture?.masses?.[name], mass = found?.mass ?? null, inertia = found?.inertia ?? null;
+  return (
+    <div class="form">
+      {mass !== null && <Quantity label={say("insp.mass")} value={`${inUnit(mass, "kg", 5)} kg`} unit="kg" follows />}
+      {inertia !== null && <Quantity label={say("insp.inertia")} value={`${inUnit(inertia, "kg·m²", 5)} kg·m²`} unit="kg·m²" follows />}
+    </div>
+  );
+}
+
+/** Takes mass, inertia and centre from the shape, in place of those that are written. */
+function fromShape(bench: Bench, name: string, link: Table): Promise<string | null> {
+  const gone = ["inertia", "mass_centre"].filter((key) => link[key] !== undefined).map((key) => ({ do: "unset", path: ["links", name, key] }));
+  drop(name);
+  return perform(bench, [...gone, { do: "set", path: ["links", name, "mass"], value: FROM_SHAPE }]);
 }
 
 /** Where the mass centre is: midway, at a point, or at a place in the link's axes. */

@@ -5,6 +5,7 @@ import { Icon } from "../frame/icons";
 import { draftNote, draftTitle, useFolder } from "../frame/open";
 import { when } from "../frame/when";
 import { put, set, tell, unset } from "./change";
+import { Construction } from "./construction";
 import { at, isTable, type Path, type Table, word } from "./entries";
 import { Choice, Quantity, Section, Switch } from "./fields";
 import { GravityFields } from "./gravity";
@@ -45,6 +46,7 @@ export function SheetPanel({ bench }: { bench: Bench }) {
           )}
         </Section>
       )}
+      {entries.links !== undefined && <Construction bench={bench} entries={entries} />}
       <Drafts bench={bench} />
     </>
   );

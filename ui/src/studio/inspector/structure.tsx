@@ -2,6 +2,7 @@
 import type { Bench } from "../bench";
 import { table, word } from "./entries";
 import { Chips, Row, Section } from "./fields";
+import { Layers } from "./layer_list";
 
 /** A formula with its indices lowered. */
 function Formula({ text }: { text: string }) {
@@ -33,6 +34,7 @@ export function Structure({ bench }: { bench: Bench }) {
           ))}
         </Section>
       )}
+      <Layers bench={bench} />
     </>
   );
 }

@@ -12,16 +12,16 @@ export function RoomLine({ bench }: { bench: Bench }) {
   if (!all.length) return null;
   return (
     <p class={conflicts.length ? "room-line conflicts" : "room-line"} role="status">
-      {all.map((each) => <Sentence key={each.sentence} bench={bench} of={each} />)}
+      {all.map((each) => <PlaceLink key={each.sentence} bench={bench} of={each} />)}
     </p>
   );
 }
 
 /** A sentence that leads to the position that it is about. */
-export function Sentence({ bench, of: { sentence, share } }: { bench: Bench; of: Placed }) {
+export function PlaceLink({ bench, of: { sentence, share } }: { bench: Bench; of: Placed }) {
   if (share === null) return <span>{sentence}</span>;
   return (
-    <button data-tip={bench.say("sheet.room_go")} onClick={() => go(bench, share)}>
+    <button type="button" class="text" data-tip={bench.say("sheet.room_go")} onClick={() => go(bench, share)}>
       {sentence}
     </button>
   );
