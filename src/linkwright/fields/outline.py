@@ -62,57 +62,57 @@ def without_repeats(corners: Sequence[tuple[float, float]]) -> Ring:
 
 def fault_of(rings: Sequence[Ring]) -> tuple[Message, Message] | None:
     """What is wrong with an outline and the holes in it, and what to do; None where nothing is."""
-    for index, ring in enumerate(rings):
-        if len(ring) < 3:
-            return _("an outline needs three corners or more", code="shapes.few_corners"), _("add corners")
-        if not _area(ring):
-            return _("the outline has no area", code="shapes.no_area"), _(
-                "move a corner out of the line of the others"
-            )
-        if index and not _inside(ring[0], rings[0]):
+    import numpy as np
+
+    if any(len(ring) < 3 for ring in rings):
+        return _("an outline needs three corners or more", code="shapes.few_corners"), _("add corners")
+    found = [np.array([complex(*each) for each in ring]) for ring in rings]
+    if any(_flat(ring) for ring in found):
+        return _("the outline has no area", code="shapes.no_area"), _("move a corner out of the line of the others")
+    place = _crossing(found)
+    if place is not None:
+        x, y = (f"{number(each, 6)} m" for each in (place.real, place.imag))
+        return (
+            _("the outline meets itself at [{x}, {y}]", code="shapes.crosses", x=x, y=y),
+            _("give the corners in the order in which they follow along the edge"),
+        )
+    return _misplaced(found)
+
+
+def _misplaced(rings: Sequence[Complexes]) -> tuple[Message, Message] | None:
+    """The same of the first hole that is not in the outline, or is in another hole."""
+    from linkwright.shapes.distance import contains
+    from linkwright.shapes.shape import polygon
+
+    outer, *holes = map(polygon, rings)
+    for index, hole in enumerate(rings[1:], 1):
+        if not contains(outer, hole[:1])[0]:
             return (
                 _("hole {number} is not within the outline", code="shapes.opening_outside", number=index),
                 _("move it, or make the outline larger"),
             )
-        if any(_inside(ring[0], other) for other in rings[1:index]):
+        if any(contains(other, hole[:1])[0] for number, other in enumerate(holes, 1) if number != index):
             return (
                 _("hole {number} is within another hole", code="shapes.opening_in_opening", number=index),
                 _("remove it: there is nothing to cut"),
             )
-    place = _crossing(rings)
-    if place is None:
-        return None
-    x, y = (f"{number(each, 6)} m" for each in place)
-    return (
-        _("the outline meets itself at [{x}, {y}]", code="shapes.crosses", x=x, y=y),
-        _("give the corners in the order in which they follow along the edge"),
-    )
+    return None
 
 
-def _area(ring: Ring) -> float:
-    """Area, counter-clockwise positive; 0 where it is rounding."""
-    (x0, y0), size = ring[0], max(abs(each) for place in ring for each in place)
-    pairs = zip(ring, (*ring[1:], ring[0]), strict=True)
-    twice = sum((a - x0) * (d - y0) - (c - x0) * (b - y0) for (a, b), (c, d) in pairs)
-    return 0.5 * twice if abs(twice) > 1e-12 * size * size else 0.0
+def _flat(ring: Complexes) -> bool:
+    """Whether all corners are in line."""
+    import numpy as np
+
+    steps = ring - ring[0]
+    longest = steps[int(np.argmax(np.abs(steps)))]
+    return bool((np.abs((longest.conjugate() * steps).imag) <= 1e-12 * abs(longest) ** 2).all())
 
 
-def _inside(place: tuple[float, float], ring: Ring) -> bool:
-    """Whether a place is within a ring, by the even-odd rule."""
-    x, y = place
-    found = False
-    for (a, b), (c, d) in zip(ring, (*ring[1:], ring[0]), strict=True):
-        if (b > y) != (d > y) and x < a + (y - b) * (c - a) / (d - b):
-            found = not found
-    return found
-
-
-def _crossing(rings: Sequence[Ring]) -> tuple[float, float] | None:
+def _crossing(rings: Sequence[Complexes]) -> complex | None:
     """A place where two sides meet that do not follow each other, or where one turns back on the one before."""
     import numpy as np
 
-    starts: Complexes = np.concatenate([np.array([complex(*each) for each in ring]) for ring in rings])
-    ends = np.concatenate([np.array([complex(*each) for each in (*ring[1:], ring[0])]) for ring in rings])
+    starts, ends = np.concatenate(rings), np.concatenate([np.roll(ring, -1) for ring in rings])
     firsts = np.cumsum([0, *(len(ring) for ring in rings)])
     before = np.arange(len(starts)) - 1
     before[firsts[:-1]] = firsts[1:] - 1
@@ -120,8 +120,7 @@ def _crossing(rings: Sequence[Ring]) -> tuple[float, float] | None:
     turns = ways[before].conj() * ways
     back = (turns.real < 0.0) & (np.abs(turns.imag) <= 1e-12 * np.abs(turns))
     if back.any():
-        at = starts[int(np.argmax(back))]
-        return float(at.real), float(at.imag)
+        return complex(starts[int(np.argmax(back))])
     for k, (start, way) in enumerate(zip(starts, ways, strict=True)):
         apart = np.arange(k + 1, len(starts))
         apart = apart[(before[apart] != k) & (apart != before[k])]
@@ -131,7 +130,7 @@ def _crossing(rings: Sequence[Ring]) -> tuple[float, float] | None:
     return None
 
 
-def _meeting(start: complex, way: complex, starts: Complexes, ways: Complexes) -> tuple[float, float] | None:
+def _meeting(start: complex, way: complex, starts: Complexes, ways: Complexes) -> complex | None:
     """A place where a side meets one of others."""
     import numpy as np
 
@@ -150,5 +149,4 @@ def _meeting(start: complex, way: complex, starts: Complexes, ways: Complexes) -
         return None
     index = int(np.argmax(hits | overlap))
     part = own[index] if hits[index] else min(max(float(share[:, index].min()), 0.0), 1.0)
-    place = start + part * way
-    return float(place.real), float(place.imag)
+    return complex(start + part * way)

@@ -198,6 +198,21 @@ def test_a_text_without_a_folder_names_no_file() -> None:
     assert "no file next to it" in str(caught.value)
 
 
+TRIANGLE = "[[0 m, 0 m], [1 m, 0 m], [0 m, 1 m]]"
+FAULTS = {
+    "outline: [[0 m, 0 m], [1 m, 1 m], [2 m, 2 m]]": "the outline has no area",
+    "outline: [[0 m, 0 m], [1 m, 1 m], [1 m, 0 m], [0 m, 1 m]]": "the outline meets itself at [0.5 m, 0.5 m]",
+    f"outline: {TRIANGLE}, holes: [[[1 m, 1 m], [2 m, 1 m], [1 m, 2 m]]]": "hole 1 is not within the outline",
+    f"outline: {TRIANGLE}, holes: [[[0.2 m, 0.2 m], [0.3 m, 0.2 m], [0.2 m, 0.3 m]], "
+    "[[0.1 m, 0.1 m], [0.6 m, 0.1 m], [0.1 m, 0.6 m]]]": "hole 1 is within another hole",
+}
+
+
+@pytest.mark.parametrize(("shape", "message"), FAULTS.items())
+def test_what_is_wrong_with_an_outline_is_named(shape: str, message: str) -> None:
+    assert message in [each.message for each in findings(text(crank=f"{{{shape}}}"))]
+
+
 def test_an_outline_is_read_from_a_drawing(tmp_path: Path) -> None:
     import ezdxf
 
