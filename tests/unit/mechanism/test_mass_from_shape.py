@@ -133,8 +133,9 @@ def test_a_sweep_has_the_forces_of_changed_machines() -> None:
     assert swept[1] > 1.2 * swept[0]
 
 
+@pytest.mark.rotating
 def test_a_mass_is_minimised() -> None:
-    """The sum of two masses grows with the width, so that the narrowest is best; within a bound the widest."""
+    """The sum of two masses grows with width and length, so that the narrowest and shortest is best."""
     task = """
 optimize:
   vary: {w: [30 mm, 60 mm], crank.length: [60 mm, 110 mm]}

@@ -7,8 +7,12 @@ from linkwright.sizing.size_links import size_links
 from linkwright.sizing.sizes import sizes_of
 
 
-@pytest.mark.rotating
-@pytest.mark.parametrize("name", lw.gallery_names())
+#: Sizes by rule, from forces, given in part; all others in the long run.
+FEW = ("crank_rocker", "toggle_press", "plate_linkage")
+MACHINES = [pytest.param(each, marks=() if each in FEW else pytest.mark.long) for each in lw.gallery_names()]
+
+
+@pytest.mark.parametrize("name", MACHINES)
 def test_machine_has_sizes(name: str) -> None:
     machine = lw.load(f"gallery:{name}")
     sizes = sizes_of(machine)
