@@ -29,7 +29,7 @@ from linkwright.kinematics.names import canonical
 from linkwright.kinematics.positions import Positions
 from linkwright.kinematics.solve import solve_motion
 from linkwright.mechanism.drawing import Drawing
-from linkwright.mechanism.mass_from_shape import following
+from linkwright.mechanism.mass_from_shape import derived_addresses
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.registry import offered
 from linkwright.units import number
@@ -418,7 +418,7 @@ def changed_text(document: Document, values: Mapping[str, float]) -> str:
     drawn = drawn_places(document) if any(moves(old, each) for each in changed) else {}
     edits = []
     for address, value in changed.items():
-        if address in following(old):  # the other two would be lost
+        if address in derived_addresses(old):  # the other two would be lost
             raise no_place(address, old)
         how = written(document, address, old.dimension(address))
         if how is not None:

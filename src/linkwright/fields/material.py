@@ -10,7 +10,7 @@ ABS and PLA: lower ends of what data sheets of solid parts give; printed parts m
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from linkwright.fields.base import Field, Quantity, Schema, table_schema
@@ -106,9 +106,4 @@ class MaterialField(Field):
 def material(density: float, strength: float, modulus: float) -> Material:
     """The material of these numbers, with its name where it is in the table."""
     found = Material("", density, strength, modulus)
-    numbers = (each for each in MATERIALS.values() if (each.density, each.strength, each.modulus) == _numbers(found))
-    return next(numbers, found)
-
-
-def _numbers(of: Material) -> tuple[float, float, float]:
-    return of.density, of.strength, of.modulus
+    return next((each for each in MATERIALS.values() if replace(each, name="") == found), found)

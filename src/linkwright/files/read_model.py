@@ -22,10 +22,9 @@ from linkwright.fields.reading import Place
 from linkwright.fields.references import resolve_output
 from linkwright.fields.sheet import FIELD as SHEET_SECTION
 from linkwright.files.check_mechanism import check_mechanism
-from linkwright.files.mass_from_shape import weighed
 from linkwright.files.misplaced import in_place
 from linkwright.files.node_reader import MODES
-from linkwright.files.read_construction import read_construction
+from linkwright.files.read_construction import read_construction, weighed
 from linkwright.files.read_cylinders import as_written, with_cylinders
 from linkwright.files.read_drivers import read_cycle, read_drivers, scan_input
 from linkwright.files.read_dynamics import read_actuators, read_run, read_stops

@@ -12,8 +12,8 @@ from linkwright.fields.nodes import Mapping as MappingNode
 from linkwright.fields.nodes import Node, Scalar, Sequence, below
 from linkwright.fields.reading import Names, Place
 from linkwright.fields.references import Coordinates, sliding
-from linkwright.files.mass_from_shape import shape_points_known
 from linkwright.files.node_reader import NAME, as_meant, meant_kind
+from linkwright.files.read_construction import shape_points_known
 from linkwright.files.reader import Reader
 from linkwright.joints.base import IMPLIED, JOINTS, Entry, Joint, implied_joint
 from linkwright.mechanism.link import FRAME_FIELDS, LINK_FIELDS, Geometry, Link, Vec, from_drawing

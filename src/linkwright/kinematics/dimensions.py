@@ -18,7 +18,7 @@ from linkwright.formula.linear_algebra import Vec
 from linkwright.formula.trace import Scalar, Trace, absolute, cos, select, sin, sqrt
 from linkwright.kinematics.equation import ChainPair
 from linkwright.mechanism.link import Link, centre, local_points
-from linkwright.mechanism.mass_from_shape import ENDS, following, outline_sources, sources, traced_mass
+from linkwright.mechanism.mass_from_shape import ENDS, derived_addresses, outline_sources, sources, traced_mass
 from linkwright.mechanism.mechanism import Mechanism
 
 if TYPE_CHECKING:
@@ -137,7 +137,7 @@ def _varying(mechanism: Mechanism, free: Set[str]) -> set[str]:
 
 def weighed_anew(mechanism: Mechanism, varying: Set[str], free: Set[str]) -> list[str]:
     """The links whose mass follows from a shape or from sizes that vary, and is not free itself."""
-    names = dict.fromkeys(following(mechanism).values())
+    names = dict.fromkeys(derived_addresses(mechanism).values())
     return [
         name
         for name in names

@@ -40,18 +40,18 @@ class FixedLayers(Field):
         found: dict[str, int | None] = {}
         for entry in mapping.entries:
             name, at = entry.key.text, place.child(entry.key.text)
-            if _is_plate(reader, entry.key, at, name):
-                layer = self._layer(reader, entry.value, at, name)
-                found |= {} if layer is None else {name: layer if layer >= 0 else None}
+            if not _is_plate(reader, entry.key, at, name):
+                continue
+            text = entry.value.text.strip() if isinstance(entry.value, Scalar) else ""
+            if text == "all" and name == "frame":
+                found[name] = None
+            elif re.fullmatch("[0-9]{1,3}", text):
+                found[name] = int(text)
+            else:
+                self._refuse(reader, entry.value, at, text)
         return found if len(found) == len(mapping.entries) else None
 
-    def _layer(self, reader: Reader, node: Node, place: Place, name: str) -> int | None:
-        """The number of a layer, -1 for all of them; None after a finding."""
-        text = node.text.strip() if isinstance(node, Scalar) else ""
-        if text == "all" and name == "frame":
-            return -1
-        if re.fullmatch("[0-9]{1,3}", text):
-            return int(text)
+    def _refuse(self, reader: Reader, node: Node, place: Place, text: str) -> None:
         problem = (
             _("only the frame can be in all layers", code="layers.all_of_link")
             if text == "all"
@@ -59,7 +59,6 @@ class FixedLayers(Field):
         )
         remedy = _("write an integer from 0, the layer of the frame, to {most}", most=MOST_LAYERS)
         reader.error(node, place, problem, remedy, "range")
-        return None
 
     def shape(self) -> Schema:
         one: Schema = {"anyOf": [{"type": "integer", "minimum": 0, "maximum": MOST_LAYERS}, {"const": "all"}]}
@@ -85,25 +84,24 @@ def _is_plate(reader: Reader, node: Node, place: Place, name: str) -> bool:
     return False
 
 
-def construction_fields() -> Mapping[str, Field]:
-    """The keys of the section in a file."""
-    return {
-        "material": MaterialField(doc=_("material of all parts (default steel)")),
-        "thickness": Quantity("length", above=0, doc=_("thickness of the plates")),
-        "width": Quantity("length", above=0, doc=_("width of the links around their points")),
-        "pin_radius": Quantity("length", above=0, doc=_("radius of the pins that do not have one of their own")),
-        "supports": Word(
-            ("cantilevered", "both"), doc=_("the frame on one side (cantilevered, the default) or on both sides")
-        ),
-        "ends": Word(("heads", "flush"), doc=_("ends of the pins: heads in the next layers (default), or flush")),
-        "clearance": Quantity("length", minimum=0, doc=_("smallest gap between what moves in one layer")),
-        "layers": FixedLayers(doc=_("layers that are fixed, by plate: {{crank: 1, guide slide: 2, frame: all}}")),
-        "washer": Quantity("length", minimum=0, doc=_("thickness of the washers between two layers")),
-        "fit": Quantity("length", minimum=0, doc=_("diameter of a hole less that of its pin (default 0)")),
-        "kerf": Quantity("length", minimum=0, doc=_("width that a cut takes (default 0)")),
-        "sheet": Quantities("length", count=2, above=0, doc=_("width and height of the sheets")),
-        "safety": Quantity("dimensionless", minimum=1, doc=_("safety factor of sizes from forces (default 2)")),
-    }
+#: The keys of the section in a file.
+FIELDS: Mapping[str, Field] = {
+    "material": MaterialField(doc=_("material of all parts (default steel)")),
+    "thickness": Quantity("length", above=0, doc=_("thickness of the plates")),
+    "width": Quantity("length", above=0, doc=_("width of the links around their points")),
+    "pin_radius": Quantity("length", above=0, doc=_("radius of the pins that do not have one of their own")),
+    "supports": Word(
+        ("cantilevered", "both"), doc=_("the frame on one side (cantilevered, the default) or on both sides")
+    ),
+    "ends": Word(("heads", "flush"), doc=_("ends of the pins: heads in the next layers (default), or flush")),
+    "clearance": Quantity("length", minimum=0, doc=_("smallest gap between what moves in one layer")),
+    "layers": FixedLayers(doc=_("layers that are fixed, by plate: {{crank: 1, guide slide: 2, frame: all}}")),
+    "washer": Quantity("length", minimum=0, doc=_("thickness of the washers between two layers")),
+    "fit": Quantity("length", minimum=0, doc=_("diameter of a hole less that of its pin (default 0)")),
+    "kerf": Quantity("length", minimum=0, doc=_("width that a cut takes (default 0)")),
+    "sheet": Quantities("length", count=2, above=0, doc=_("width and height of the sheets")),
+    "safety": Quantity("dimensionless", minimum=1, doc=_("safety factor of sizes from forces (default 2)")),
+}
 
 
 @dataclass(frozen=True)
@@ -134,7 +132,7 @@ class Construction(Frozen):
     @staticmethod
     def fields() -> Mapping[str, Field]:
         """The keys of the section in a file."""
-        return construction_fields()
+        return FIELDS
 
     @classmethod
     def of_values(cls, values: Mapping[str, Any]) -> Construction:
@@ -144,27 +142,24 @@ class Construction(Frozen):
     def values(self) -> dict[str, Any]:
         """The keys of the file that are not the usual ones, and the material, with their SI values."""
         usual = Construction()
-        found = {key: getattr(self, key) for key in self.fields()}
+        found = {key: getattr(self, key) for key in FIELDS}
         return {key: each for key, each in found.items() if key == "material" or each != getattr(usual, key)}
 
     def dimensions(self) -> dict[str, float]:
         """Addresses (``construction.width``, ``construction.material.density``, …) with their SI values."""
-        found = {key: getattr(self, key) for key in self.fields()}
-        flat = {key: self.fields()[key].flatten(value) for key, value in found.items()}
+        flat = {key: field.flatten(getattr(self, key)) for key, field in FIELDS.items()}
         return {f"construction.{key}{end}": each for key, parts in flat.items() for end, each in parts.items()}
 
     def with_dimensions(self, value: Callable[[str], float]) -> Construction:
         """The same construction with the values that ``value`` gives for the addresses of ``dimensions``."""
-        fields, found = self.fields(), {key: getattr(self, key) for key in self.fields()}
         return self.of_values(
             {
-                key: fields[key].rebuild(old, lambda end, key=key: value(f"construction.{key}{end}"))  # type: ignore[misc]
-                for key, old in found.items()
+                key: field.rebuild(getattr(self, key), lambda end, key=key: value(f"construction.{key}{end}"))  # type: ignore[misc]
+                for key, field in FIELDS.items()
             }
         )
 
     def written(self, expressions: Collection[str] = ()) -> dict[str, Any]:
         """As plain data for a file; with the keys of which ``expressions`` has the address."""
-        fields = self.fields()
-        found = {key: getattr(self, key) for key in fields if f"construction.{key}" in expressions}
-        return {key: fields[key].written(value) for key, value in {**self.values(), **found}.items()}
+        found = {key: getattr(self, key) for key in FIELDS if f"construction.{key}" in expressions}
+        return {key: FIELDS[key].written(value) for key, value in {**self.values(), **found}.items()}

@@ -45,7 +45,7 @@ class Plated(Protocol):
 
 
 @dataclass(frozen=True)
-class Sizes:
+class SizeAddresses:
     """Addresses of the sizes from which a link's mass follows.
 
     ``width`` is empty for a shape without one, ``density`` for steel by rule; ``pins``: of the radius of every pin of
@@ -59,13 +59,13 @@ class Sizes:
     missing: tuple[tuple[str, str], ...]
 
 
-def following(mechanism: Plated) -> dict[str, str]:
+def derived_addresses(mechanism: Plated) -> dict[str, str]:
     """Addresses of what follows from the shapes of links, with the names of these links."""
     names = (name for name, link in mechanism.links.items() if link.mass_from_shape)
     return {f"{name}{end}": name for name in names for end in ENDS}
 
 
-def sizes(mechanism: Plated, name: str) -> Sizes:
+def size_addresses(mechanism: Plated, name: str) -> SizeAddresses:
     """The addresses of the sizes of a link with a shape."""
     from linkwright.mechanism.plate import needs_width
 
@@ -90,18 +90,18 @@ def sizes(mechanism: Plated, name: str) -> Sizes:
     density = "construction.material.density" if construction is not None else ""
     if shape is not None and shape.material is not None:
         density = f"{name}.shape.material.density"
-    return Sizes(thickness, width, density, pins, tuple(dict.fromkeys(missing)))
+    return SizeAddresses(thickness, width, density, pins, tuple(dict.fromkeys(missing)))
 
 
 def sources(mechanism: Plated, name: str) -> frozenset[str]:
     """The addresses of all that the mass, inertia and mass centre of a link follow from."""
-    given = sizes(mechanism, name)
+    given = size_addresses(mechanism, name)
     return outline_sources(mechanism, name) | {each for each in (given.thickness, given.density) if each}
 
 
 def outline_sources(mechanism: Plated, name: str) -> frozenset[str]:
     """The addresses on which outline and holes of a link depend."""
-    given, link = sizes(mechanism, name), mechanism.links[name]
+    given, link = size_addresses(mechanism, name), mechanism.links[name]
     own = {f"{name}.shape{end}" for end in (() if link.shape is None else link.shape.dimensions())}
     own -= {f"{name}.shape.thickness", *(each for each in own if each.startswith(f"{name}.shape.material."))}
     return frozenset(
@@ -119,7 +119,7 @@ def mass_of(mechanism: Plated, name: str, value: Callable[[str], float]) -> Mass
     from linkwright.mechanism.plate import plate
     from linkwright.shapes.properties import area_moments
 
-    given = sizes(mechanism, name)
+    given = size_addresses(mechanism, name)
     link = mechanism.links[name].with_dimensions(value)
     outline = plate(link, value(given.width) if given.width else 0.0)
     holes = ((complex(*link.points[pin]), value(radius)) for pin, radius in given.pins.items())
@@ -136,7 +136,7 @@ def traced_mass(mechanism: Plated, name: str, dimension: Callable[[str], Scalar]
 
     Raises LinkwrightError for shapes without a closed form that vary: paths, and bars that are bent.
     """
-    given, link = sizes(mechanism, name), mechanism.links[name]
+    given, link = size_addresses(mechanism, name), mechanism.links[name]
     points = local_points(link, dimension, cos, sin)
     outline = _outline(link, points, given, dimension)
     if outline is not None:
@@ -161,7 +161,7 @@ def traced_mass(mechanism: Plated, name: str, dimension: Callable[[str], Scalar]
 def fixed_plate(mechanism: Plated, name: str) -> tuple[float, float, float, float]:
     """Area (m²) of the plate of a link, the place of its centre (m), and its polar moment about that (m⁴)."""
     link = mechanism.links[name]
-    surface = _surface(sizes(mechanism, name), mechanism.dimensions().__getitem__)
+    surface = _surface(size_addresses(mechanism, name), mechanism.dimensions().__getitem__)
     return link.mass / surface, *link.centre, link.inertia / surface
 
 
@@ -177,7 +177,7 @@ def bent_plates(mechanism: Plated) -> list[str]:
 
 
 def _outline(
-    link: Link, points: Mapping[str, Pair], given: Sizes, dimension: Callable[[str], Scalar]
+    link: Link, points: Mapping[str, Pair], given: SizeAddresses, dimension: Callable[[str], Scalar]
 ) -> PlaneMoments | None:
     """The moments of a plate without holes; None of one without a closed form."""
     places, shape = [*points.values()], link.shape
@@ -191,7 +191,7 @@ def _outline(
     return hull_moments(places, 0.5 * dimension(given.width))
 
 
-def _surface(given: Sizes, dimension: Callable[[str], T]) -> T:
+def _surface(given: SizeAddresses, dimension: Callable[[str], T]) -> T:
     """Mass per area, kg/m²."""
     thickness: Any = dimension(given.thickness)
     found: T = (dimension(given.density) if given.density else MATERIALS["steel"].density) * thickness

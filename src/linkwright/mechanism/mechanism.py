@@ -202,7 +202,7 @@ class Mechanism(Frozen):
             new[address] = self._checked(address, expression.evaluate(new))
         weighed = self._weigh(changes, new)
         moved = {
-            self._owners.get(each) for each in (*changes, *unchanged, *self._following) if new[each] != known[each]
+            self._owners.get(each) for each in (*changes, *unchanged, *self._derived) if new[each] != known[each]
         }
         value, parameters = new.__getitem__, {name: new[name] for name in self.parameters}
         renewed: dict[str, set[str]] = {sort: set() for sort in _SORTS}
@@ -250,12 +250,12 @@ class Mechanism(Frozen):
     def _weigh(self, changes: Mapping[str, float], new: dict[str, float]) -> set[str]:
         """Puts what follows from the shapes of links into ``new`` dimensions, where these change it; the links whose
         mass, inertia or mass centre is itself changed, which then follows no more."""
-        if not self._following:
+        if not self._derived:
             return set()
         from linkwright.mechanism.mass_from_shape import ENDS, mass_of, sources
 
-        given = {self._following[each] for each in changes if each in self._following}
-        for name in dict.fromkeys(self._following.values()):
+        given = {self._derived[each] for each in changes if each in self._derived}
+        for name in dict.fromkeys(self._derived.values()):
             known = self._dimensions
             if name not in given and any(new[each] != known[each] for each in sources(self, name)):
                 found = mass_of(self, name, new.__getitem__)
@@ -263,13 +263,13 @@ class Mechanism(Frozen):
         return given
 
     @cached_property
-    def _following(self) -> Mapping[str, str]:
+    def _derived(self) -> Mapping[str, str]:
         """Addresses of what follows from the shapes of links, with the names of the links."""
         if not any(link.mass_from_shape for link in self.links.values()):
             return {}
-        from linkwright.mechanism.mass_from_shape import following
+        from linkwright.mechanism.mass_from_shape import derived_addresses
 
-        return following(self)
+        return derived_addresses(self)
 
     def _changed(self, found: Mapping[str, Any], **changes: Any) -> Mechanism:
         """The same mechanism with other fields, the others are frozen already, and what is ``found`` of it."""

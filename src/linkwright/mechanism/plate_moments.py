@@ -19,10 +19,10 @@ FLAT = 1e-12
 class PlaneMoments:
     """``area`` m², first moments ``x`` and ``y`` m³, and the ``polar`` moment m⁴, all about an origin."""
 
-    area: Scalar
-    x: Scalar
-    y: Scalar
-    polar: Scalar
+    area: Scalar = 0.0
+    x: Scalar = 0.0
+    y: Scalar = 0.0
+    polar: Scalar = 0.0
 
     def __add__(self, other: PlaneMoments) -> PlaneMoments:
         return PlaneMoments(self.area + other.area, self.x + other.x, self.y + other.y, self.polar + other.polar)
@@ -74,15 +74,14 @@ def hull_moments(points: Sequence[Point], radius: Scalar) -> PlaneMoments:
     """
     if len(points) == 1:
         return disc_moments(points[0], radius)
+    if len(points) == 2:
+        return bar_moments(points[0], points[1], radius)
     if all(isinstance(y, float) and y == 0.0 for _unused, y in points):
-        xs = [x for x, _unused in points]
-        low, high = xs[0], xs[1]
-        if len(xs) > 2:
-            low = high = xs[0]
-            for x in xs[1:]:
-                low, high = minimum(low, x), maximum(high, x)
+        low = high = points[0][0]
+        for x, _unused in points[1:]:
+            low, high = minimum(low, x), maximum(high, x)
         return bar_moments((low, 0.0), (high, 0.0), radius)
-    return bar_moments(points[0], points[1], radius) if len(points) == 2 else _plate(points, radius)
+    return _plate(points, radius)
 
 
 def bar_moments(a: Point, b: Point, radius: Scalar) -> PlaneMoments:
@@ -105,7 +104,8 @@ def _plate(points: Sequence[Point], radius: Scalar) -> PlaneMoments:
     sides = _sides(points)
     whole = _sum(_of_side(triangle_moments(points[i], points[j]), mask) for (i, j), mask in sides.items())
     lengths = {pair: _distance(points[pair[0]], points[pair[1]]) for pair in sides}
-    perimeter, strips, corners = _nothing(), PlaneMoments(0.0, 0.0, 0.0, 0.0), PlaneMoments(0.0, 0.0, 0.0, 0.0)
+    perimeter: Scalar = 0.0
+    strips, corners = PlaneMoments(), PlaneMoments()
     for (i, j), mask in sides.items():
         (ax, ay), (bx, by) = points[i], points[j]
         length = select(mask, lengths[i, j], 0.0)
@@ -169,7 +169,9 @@ def _turn(
     points: Sequence[Point], sides: dict[tuple[int, int], Mask], lengths: dict[tuple[int, int], Scalar], k: int
 ) -> Scalar:
     """The outer angle of the hull at a point, 0 where it is no corner: between the sides that come and go."""
-    into, out, corner = (_nothing(), _nothing()), (_nothing(), _nothing()), _nothing()
+    into: Point = (0.0, 0.0)
+    out: Point = (0.0, 0.0)
+    corner: Scalar = 0.0
     for other in range(len(points)):
         if other == k:
             continue
@@ -194,12 +196,5 @@ def _distance(a: Point, b: Point) -> Scalar:
     return sqrt(dx * dx + dy * dy)
 
 
-def _nothing() -> Scalar:
-    return 0.0
-
-
 def _sum(moments: Iterable[PlaneMoments]) -> PlaneMoments:
-    total = PlaneMoments(0.0, 0.0, 0.0, 0.0)
-    for each in moments:
-        total = total + each
-    return total
+    return sum(moments, start=PlaneMoments())

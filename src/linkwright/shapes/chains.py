@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 
 from linkwright.shapes.loop import Loop, circle
@@ -32,7 +32,7 @@ def closed_loops(segments: Sequence[Segment], near: float, tails: float) -> list
             continue
         arrows[start].append((end, each))
     _prune(arrows, tails)
-    if _balance(arrows):
+    if not _balanced(arrows):
         return None
     rings = [_merged(ring, near) for ring in _rings(arrows)]
     loops = [_loop(ring) for ring in rings]
@@ -40,14 +40,10 @@ def closed_loops(segments: Sequence[Segment], near: float, tails: float) -> list
     return sorted(loops, key=lambda loop: (loop.area < 0.0, -abs(loop.area)))
 
 
-def _balance(arrows: Arrows) -> dict[int, int]:
-    """How many more arrows leave a place than arrive, where that is not as many."""
-    found: dict[int, int] = defaultdict(int)
-    for start, leaving in arrows.items():
-        for end, _segment in leaving:
-            found[start] += 1
-            found[end] -= 1
-    return {place: excess for place, excess in found.items() if excess}
+def _balanced(arrows: Arrows) -> bool:
+    """Whether as many arrows leave every place as arrive there."""
+    leave = Counter({start: len(leaving) for start, leaving in arrows.items() if leaving})
+    return leave == Counter(end for leaving in arrows.values() for end, _segment in leaving)
 
 
 def _prune(arrows: Arrows, longest: float) -> None:

@@ -93,6 +93,13 @@ class Edge:
             ends = ends if from_middle > 0.5 * abs(self.angle) else abs(abs(away) - self.radius)
         return ends
 
+    def areas(self, origin: complex) -> tuple[float, float]:
+        """Areas (m²) of the triangle from an origin over the chord, and of the segment between chord and arc, each
+        positive counter-clockwise."""
+        triangle = 0.5 * ((self.start - origin).conjugate() * (self.end - origin)).imag
+        segment = 0.5 * self.radius**2 * (self.angle - math.sin(self.angle)) if self.bulge else 0.0
+        return triangle, segment
+
     @property
     def box(self) -> tuple[complex, complex]:
         """Lowest and highest x and y on the edge."""
@@ -126,14 +133,7 @@ class Loop:
     def area(self) -> float:
         """Area within, m², negative where the loop runs clockwise."""
         origin = self.edges[0].start
-        return math.fsum(part for edge in self.edges for part in self._areas(edge, origin))
-
-    @staticmethod
-    def _areas(edge: Edge, origin: complex) -> tuple[float, float]:
-        """Areas of the triangle from an origin over the chord, and of the segment between chord and arc."""
-        triangle = 0.5 * ((edge.start - origin).conjugate() * (edge.end - origin)).imag
-        segment = 0.5 * edge.radius**2 * (edge.angle - math.sin(edge.angle)) if edge.bulge else 0.0
-        return triangle, segment
+        return math.fsum(part for edge in self.edges for part in edge.areas(origin))
 
     @cached_property
     def box(self) -> tuple[complex, complex]:

@@ -52,16 +52,15 @@ def moments_within(loops: Iterable[Loop]) -> AreaMoments:
 def _parts(edge: Edge, origin: complex) -> Iterable[tuple[float, complex, float]]:
     """Area, first and polar moment about an origin of the triangle and the segment of an edge."""
     a, b = edge.start - origin, edge.end - origin
-    area = 0.5 * (a.conjugate() * b).imag
+    area, segment = edge.areas(origin)
     yield area, area * (a + b) / 3.0, area * (abs(a) ** 2 + (a.conjugate() * b).real + abs(b) ** 2) / 6.0
     if not edge.bulge:
         return
     angle, radius, centre = edge.angle, edge.radius, edge.centre - origin
-    area = 0.5 * radius**2 * (angle - math.sin(angle))
     middle = edge.at(0.5) - edge.centre
     reach = 2.0 * radius**3 * math.sin(0.5 * angle) ** 3 / 3.0
     inner = reach * middle / (abs(middle) or 1.0)
     polar = radius**4 * (angle / 4.0 - math.sin(angle) * (2.0 + math.cos(angle)) / 12.0)
     # to the origin: the polar moment of z + c is that of z with 2 c·(first moment) and c² area
-    moved = polar + 2.0 * (centre.conjugate() * inner).real + area * abs(centre) ** 2
-    yield area, inner + area * centre, moved
+    moved = polar + 2.0 * (centre.conjugate() * inner).real + segment * abs(centre) ** 2
+    yield segment, inner + segment * centre, moved

@@ -85,14 +85,15 @@ class LinkLoad:
         return max((peak.value for peak, _bore in self.eyes.values()), default=0.0)
 
     @property
-    def pressed(self) -> bool:
-        """Whether it is pressed at all, but for rounding."""
-        return self.compression is not None and self.compression.value > 1e-9 * max(self.force, 1e-300)
+    def pressed(self) -> Largest | None:
+        """The largest compression if it is more than rounding."""
+        most = self.compression
+        return most if most is not None and most.value > 1e-9 * max(self.force, 1e-300) else None
 
     @property
     def slenderest(self) -> float:
         """The largest slenderness that it should have."""
-        return SLENDEREST_PRESSED if self.pressed else SLENDEREST_PULLED
+        return SLENDEREST_PULLED if self.pressed is None else SLENDEREST_PRESSED
 
     def worst_eye(self, allowed: Allowed) -> str:
         """The pin whose eye asks for the largest width."""
@@ -109,9 +110,9 @@ class LinkLoad:
             found["eye"] = self._eye(self.worst_eye(allowed), allowed)
         if self.section is not None:
             found["stress"] = self.section.width(self.thickness, allowed.stress)
-        if self.pressed and self.compression is not None:
+        if (pressed := self.pressed) is not None:
             most = self._buckling_stress(self.thickness, allowed)
-            found["buckling"] = self.compression.value * allowed.buckling / (self.thickness * most)
+            found["buckling"] = pressed.value * allowed.buckling / (self.thickness * most)
         if found:
             found["proportion"] = self.thickness
         return found
@@ -129,9 +130,9 @@ class LinkLoad:
         if self.section is not None:
             stress = self.section.stress(width, self.thickness) if width > self.section.bore else np.inf
             found["stress"] = strength / max(stress, 1e-300)
-        if self.pressed and self.compression is not None:
+        if (pressed := self.pressed) is not None:
             most = self._buckling_stress(min(width, self.thickness), allowed) * width * self.thickness
-            found["buckling"] = most / self.compression.value * allowed.safety / allowed.buckling
+            found["buckling"] = most / pressed.value * allowed.safety / allowed.buckling
         return found
 
 

@@ -6,7 +6,6 @@ import linkwright as lw
 from linkwright.sizing.size_links import size_links
 from linkwright.sizing.sizes import sizes_of
 
-
 #: Sizes by rule, from forces, given in part; all others in the long run.
 FEW = ("crank_rocker", "toggle_press", "plate_linkage")
 MACHINES = [pytest.param(each, marks=() if each in FEW else pytest.mark.long) for each in lw.gallery_names()]
