@@ -65,12 +65,12 @@ class Approaching:
         self._place_bound: Floats = np.abs(paths.place_curvature).sum(axis=-1)
         self._turn_bound: Floats = np.abs(paths.turn_curvature).sum(axis=-1)
 
-    def over_pieces(self, meetings: Meetings) -> Approaches:
-        """Meetings over all pieces of the paths, one piece after the other, with bounds of curvatures that are quick
-        to find."""
-        paths, count = self.paths, len(meetings.pair)
-        every = meetings.taken(np.tile(np.arange(count), paths.count))
-        piece = np.repeat(np.arange(paths.count), count)
+    def over_pieces(self, meetings: Meetings, where: Flags) -> Approaches:
+        """Meetings over those pieces of the paths where they matter, (meetings, pieces), one piece after the other,
+        with bounds of curvatures that are quick to find."""
+        paths = self.paths
+        piece, number = np.nonzero(where.T)
+        every = meetings.taken(number)
         corner = self.outlines.corner[every.corner]
         places, turns = (each[every.pose, piece] for each in paths.ends)
         ends = places + turns * corner[:, None]
@@ -127,6 +127,24 @@ class Approaching:
             begin=np.concatenate([of.begin, place]),
             end=np.concatenate([place, of.end]),
         )
+
+    def of_circles(self, pose: Indices, centre: Complexes, reach: Floats) -> tuple[Floats, Floats]:
+        """Between which two distances the gaps of shapes stay in each piece, (pairs, pieces), by the circles around
+        both: their centres (pairs, 2), the second ones in the given poses, and both radii together."""
+        places, turns = (each[pose] for each in self.paths.ends)
+        first, last = np.moveaxis(places + turns * centre[:, 1, None, None] - centre[:, 0, None, None], -1, 0)
+        apart, path = np.abs(0.5 * (first + last)), 0.5 * np.abs(last - first)
+        bend = 0.5 * (self._place_bound[pose] + self._turn_bound[pose] * np.abs(centre[:, 1, None]))
+        return apart - path - bend - reach[:, None], apart + path + reach[:, None]
+
+    def circles(self, of: Approaches) -> tuple[Floats, Floats]:
+        """Between which two distances (n,) corners stay from sides, by circles around the paths and the sides: wider
+        than ``bounds``, but quicker to find."""
+        own, side = self.outlines, of.meetings.side
+        apart = np.abs(0.5 * (of.begin + of.end - own.along[side]) - own.begin[side])
+        path = 0.5 * np.abs(of.end - of.begin)
+        bend = 0.125 * (of.high - of.low) ** 2 * of.curvatures.path
+        return apart - path - bend - 0.5 * own.length[side], apart + path
 
     def bounds(self, of: Approaches) -> Bounds:
         """How near the corners are, and may come, to the sides."""

@@ -12,7 +12,7 @@ from linkwright.core.arrays import Complexes, Floats, Indices
 from linkwright.shapes.shape import Piece, Shape
 
 #: Corners, or sides, that are taken together where shapes have many, and the number of pairs from which they are.
-TOGETHER, MANY = 8, 600
+TOGETHER, MANY = 8, 150
 
 
 def spread(count: Indices) -> tuple[Indices, Indices]:

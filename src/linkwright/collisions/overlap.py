@@ -17,15 +17,17 @@ class Overlaps:
 
     Cores overlap where two sides cross, or the first corner of a ring of one lies within the other (by the even-odd
     rule).
+
+    ``circles`` around the shapes: their centres (pairs, 2), m, and both radii together; ``pose``: that of each pair.
     """
 
     def __init__(self, pairs: PairsOfShapes, shapes: Sequence[tuple[Shape, Shape]], paths: RelativePaths) -> None:
         self._paths, self._outlines, count = paths, pairs.outlines, len(shapes)
-        self._pose = np.zeros(count, dtype=np.intp)
+        self.pose = np.zeros(count, dtype=np.intp)
         crossing: list[list[tuple[int, ...]]] = [[] for _ in shapes]
         inside: list[list[tuple[int, ...]]] = [[] for _ in shapes]
         for pair, pose, one, other in pairs.pieces:
-            self._pose[pair] = pose
+            self.pose[pair] = pose
             if not (one.point or other.point):
                 crossing[pair].append((*one.sides, *other.sides))
             for seen, against, own in ((other, one, 0), (one, other, 1)):
@@ -33,15 +35,16 @@ class Overlaps:
                     inside[pair] += [(ring, *against.sides, own) for ring in seen.rings]
         self._crossing, self._inside = _Listed(crossing, 4), _Listed(inside, 4)
         circles = [(first.bound, second.bound) for first, second in shapes]
-        self._centres = np.array([[one[0], other[0]] for one, other in circles])
-        self._reach = np.array([one[1] + other[1] for one, other in circles])
+        centres = np.array([[one[0], other[0]] for one, other in circles])
+        self.circles = centres, np.array([one[1] + other[1] for one, other in circles])
 
     def at(self, pair: Indices, piece: Indices, x: Floats) -> Flags:
         """Whether the cores of some pairs overlap at places of pieces, (n,)."""
         found = np.zeros(len(pair), dtype=np.bool_)
-        place, turn = self._paths.pose(self._pose[pair], piece, x)
-        apart = np.abs(place + turn * self._centres[pair, 1] - self._centres[pair, 0])
-        near = np.flatnonzero(apart <= self._reach[pair])
+        place, turn = self._paths.pose(self.pose[pair], piece, x)
+        centres, reach = self.circles
+        apart = np.abs(place + turn * centres[pair, 1] - centres[pair, 0])
+        near = np.flatnonzero(apart <= reach[pair])
         place, turn = place[near], turn[near]
         found[near] = self._crossed(pair[near], place, turn) | self._within(pair[near], place, turn)
         return found

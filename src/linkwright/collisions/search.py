@@ -70,12 +70,12 @@ class Search:
         """The smallest gap of every pair."""
         found = Nearest.of(self.count)
         self._begin(found)
-        chosen = found.size > 0.0
+        where = (found.size > 0.0)[:, None] & self._pieces()
 
         def near(over: Approaches) -> Approaches:
-            return self._nearer(over, found)
+            return self._nearer(self._within_reach(over, found), found)
 
-        over = Approaches.joined([self._first(self.pairs.fine, near, chosen), self._expanded(near, chosen)])
+        over = Approaches.joined([self._first(self.pairs.fine, near, where), self._expanded(near, where)])
         self._narrow(over, found)
         self._settle(found)
         return found
@@ -87,15 +87,25 @@ class Search:
         over = np.flatnonzero(self.overlaps.at(pair, piece, np.full(len(pair), -1.0)))[::-1]
         found.size[pair[over]], found.piece[pair[over]], found.x[pair[over]] = -np.inf, piece[over], -1.0
 
+    def _pieces(self) -> Flags:
+        """In which pieces the gap of each pair may be smallest, (pairs, pieces): by circles around the shapes, and
+        of what does not move in the first one."""
+        least, most = self.approaching.of_circles(self.overlaps.pose, *self.overlaps.circles)
+        found: Flags = least <= most.min(axis=1, initial=np.inf, keepdims=True) + self.tolerance
+        still = [self.paths.pairs[pose >> 1] for pose in self.overlaps.pose.tolist()]
+        found[[one == other for one, other in still], 1:] = False
+        return found
+
     def within(self, chosen: Flags, reach: float) -> Approaches:
         """Corners and sides of chosen pairs (pairs,) over pieces in which they may be nearer than ``reach``, m."""
         limits = np.where(chosen, reach, -np.inf)
+        where = np.repeat(chosen[:, None], self.paths.count, axis=1)
 
         def near(over: Approaches) -> Approaches:
             bounds = self.approaching.bounds(over)
             return over.taken(bounds.least - self.radius(over.meetings) < limits[over.meetings.pair])
 
-        parts = (self._first(self.pairs.fine, near, chosen), self._expanded(near, chosen))
+        parts = (self._first(self.pairs.fine, near, where), self._expanded(near, where))
         return Approaches.joined(parts)
 
     def radius(self, meetings: Meetings) -> Floats:
@@ -104,24 +114,32 @@ class Search:
         slack = own.corner_slack[corner] + own.side_slack[side]
         return own.corner_radius[corner] + own.side_radius[side] + slack
 
-    def _first(self, meetings: Meetings, near: Near, chosen: Flags) -> Approaches:
-        """Meetings of chosen pairs over all pieces, of which those are taken that are ``near``."""
+    def _first(self, meetings: Meetings, near: Near, where: Flags) -> Approaches:
+        """Meetings of pairs over pieces, (pairs, pieces), of which those are taken that are ``near``."""
         parts = []
         together = max(1, TOGETHER // max(1, self.paths.count))
         for begin in range(0, max(1, len(meetings.pair)), together):
             some = meetings.taken(slice(begin, begin + together))
-            parts.append(near(self.approaching.over_pieces(some.taken(chosen[some.pair]))))
+            parts.append(near(self.approaching.over_pieces(some, where[some.pair])))
         return Approaches.joined(parts)
 
-    def _expanded(self, near: Near, chosen: Flags) -> Approaches:
-        """The corners and sides of groups of chosen pairs over pieces, of which those are taken that are ``near``."""
+    def _expanded(self, near: Near, where: Flags) -> Approaches:
+        """Corners and sides of groups over pieces, (pairs, pieces), of which those are taken that are ``near``."""
         parts = []
-        over = self._first(self.pairs.coarse, near, chosen)
+        over = self._first(self.pairs.coarse, near, where)
         for begin in range(0, max(1, len(over)), TOGETHER // 64):
             some = over.taken(slice(begin, begin + TOGETHER // 64))
             meetings, group = self.pairs.expanded(some.meetings)
             parts.append(near(self.approaching.expanded(meetings, some, group)))
         return Approaches.joined(parts)
+
+    def _within_reach(self, over: Approaches, found: Nearest) -> Approaches:
+        """Leaves out, by circles around paths and sides, what stays farther away than another corner comes."""
+        least, most = self.approaching.circles(over)
+        reach, pair = self.radius(over.meetings), over.meetings.pair
+        limits = found.size.copy()
+        np.minimum.at(limits, pair, most + reach)
+        return over.taken(least - reach <= limits[pair] + self.tolerance)
 
     def _narrow(self, over: Approaches, found: Nearest) -> None:
         """Halves intervals until none can have a smaller gap than is found."""
