@@ -115,4 +115,6 @@ def is_made(shown: Hand) -> None:
     tab.evaluate("() => { bench.tab.value = 'structure'; }")
     picture = pane.locator("img.side")
     picture.wait_for()
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright")
+    assert axe.Axe().run(tab).response["violations"] == []
     assert picture.evaluate("async (image) => { await image.decode(); return image.naturalWidth; }") > 100

@@ -19,12 +19,23 @@ export class Outlines {
   constructor(private readonly board: Board, below: Element) {
     this.group = element("g", { class: "outlines" });
     below.insertBefore(this.group, below.lastChild);
+    board.outer = () => this.box();
+  }
+
+  /** The room of what is drawn, m. */
+  private box(): [number, number, number, number] | null {
+    const { x, y, width, height } = (this.group as SVGGraphicsElement).getBBox(), { camera } = this.board;
+    if (!width || !height) return null;
+    const [left, high] = camera.world([x, y]), [right, low] = camera.world([x + width, y + height]);
+    return [left, low, right, high];
   }
 
   draw(over: Overlay): void {
     const { board } = this, { bench } = board, room = bench.room.value, session = board.standsFor, shown = room !== null && session !== null && bench.shows("outlines");
     this.group.classList.toggle("hidden", !shown);
+    if (!room && this.made.length) this.make([]);
     if (!shown) return;
+    const first = !this.made.length;
     if (this.known !== room.outlines) this.make(room.outlines);
     const stand = board.solved === session ? board.stand : new Stand(board.scene, undefined, session, board.place), near = this.near(room, session);
     for (const { of, path } of this.made) {
@@ -35,6 +46,7 @@ export class Outlines {
       path.classList.toggle("collides", near.has(of.name));
     }
     this.mark(room, session, over);
+    if (first) board.refit();
   }
 
   private make(outlines: PartOutline[]): void {

@@ -46,6 +46,8 @@ export class Board implements Sheet {
   spot: Spot | null = null;
   /** Where the cross of the keyboard is, m. */
   cross: Vec | null = null;
+  /** The room of what is laid under the machine, m; null: none. */
+  outer: () => [number, number, number, number] | null = () => null;
   /** Called after each drawing, with the values in hand. */
   drawn: (() => void) | null = null;
   view: View | null = null;
@@ -322,7 +324,7 @@ export class Board implements Sheet {
     if (w < 1 || h < 1) return;
     if (!this.seen) this.camera.origin = [Math.round(0.4 * w), Math.round(0.6 * h)];
     this.camera.size = [w, h];
-    if (this.whole) this.fit();
+    this.refit();
     this.touch();
   }
 
@@ -346,10 +348,15 @@ export class Board implements Sheet {
   /** Puts all of the drawing into the sheet, clear of what stands at its foot. */
   fit(): void {
     const { camera, base, broken } = this, gap = this.bench.gap.value;
-    const own = base && this.view && !broken ? around(this.view.box, this.scene.box) : this.scene.box, box = gap && (broken || !gap.drawn) ? boxOf(gap, own) : own;
+    const own = base && this.view && !broken ? around(this.view.box, this.scene.box, this.outer()) : this.scene.box, box = gap && (broken || !gap.drawn) ? boxOf(gap, own) : own;
     if (box) this.fitWithLoads(box, Math.min(96, 0.14 * Math.min(...camera.size)));
     else [camera.scale, camera.origin] = [FULL, [Math.round(0.4 * camera.size[0]), Math.round(0.6 * camera.size[1])]];
     this.touch();
+  }
+
+  /** There is more to see: where all was seen, it still is. */
+  refit(): void {
+    if (this.whole) this.fit();
   }
 
   /** Puts a box into the sheet so that loads with their labels, which are as large at any scale, are in it, too. */
