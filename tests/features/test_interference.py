@@ -82,3 +82,34 @@ def test_what_does_not_move_holds_everywhere() -> None:
 def test_a_clearance_must_be_a_number() -> None:
     with pytest.raises(lw.LinkwrightError, match="clearance"):
         lw.interference(lw.loads(CRANK), clearance="2 mm")  # type: ignore[arg-type]
+
+
+def test_overlaps_are_where_both_are() -> None:
+    """At the start the frame, the hull of three points, covers both the crank and the pin A far from its corners."""
+    found = lw.interference(
+        lw.loads(
+            """
+format: 1
+name: covered crank
+frame: {points: {O: [0 m, 0 m], P: [-3 m, 4 m], Q: [5 m, 4 m], R: [0 m, -4 m]}, shape: {width: 0.2 m}}
+links:
+  crank: {points: [O, A], length: 1 m, shape: {width: 0.2 m}}
+  rod: {points: [A, B], length: 1 m, shape: {width: 0.2 m}}
+joints: {tight: {kind: weld, links: [crank, rod], at: A, angle: 90 deg}}
+driver: {turn: crank, about: O, speed: 1 rad/s}
+construction: {pin_radius: 0.05 m, width: 0.2 m}
+"""
+        )
+    )
+    gap = found.pair("frame", "crank").gap
+    assert gap is not None and gap.size <= 0.0 and gap.input == 0.0
+    along, up = gap.place.real, gap.place.imag
+    on_crank = -0.1 <= along <= 1.1 and abs(up) <= 0.1
+    on_rod = abs(along - 1.0) <= 0.1 and -0.1 <= up <= 1.1
+    assert on_crank or on_rod
+
+
+def test_places_are_zero_without_digits_of_rounding() -> None:
+    """The end of the bar meets the wall at the height of its pivot."""
+    (row,) = [line for line in lw.interference(lw.loads(CRANK)).text().splitlines() if "frame – crank" in line]
+    assert row.split()[-2:] == ["0", "mm"]

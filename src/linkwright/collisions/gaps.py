@@ -10,8 +10,12 @@ import numpy as np
 from linkwright.collisions.relative_paths import RelativePaths
 from linkwright.collisions.search import Search
 from linkwright.collisions.spans import Spans
+from linkwright.core.table import Amount
 from linkwright.kinematics.motion import Motion
 from linkwright.shapes.shape import Shape
+
+#: Coordinates below this share of the machine's size are zero in tables: places of contact are found to no more.
+NOTHING = 1e-6
 
 
 @dataclass(frozen=True)
@@ -30,6 +34,12 @@ class Gap:
     place: complex
     spans: tuple[tuple[float, float], ...] = ()
     exact: bool = True
+
+    def cells(self, size: float) -> tuple[Amount, Amount]:
+        """The coordinates of the place for tables, those that are zero but for rounding as zero; ``size``: m, of the
+        machine."""
+        x, y = (each if abs(each) > NOTHING * size else 0.0 for each in (self.place.real, self.place.imag))
+        return Amount(x, "length", 4), Amount(y, "length", 4)
 
 
 @dataclass(frozen=True, eq=False)

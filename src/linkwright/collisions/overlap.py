@@ -9,6 +9,7 @@ import numpy as np
 from linkwright.collisions.features import PairsOfShapes, spread
 from linkwright.collisions.relative_paths import RelativePaths
 from linkwright.core.arrays import Complexes, Flags, Floats, Indices
+from linkwright.shapes.distance import core_distances
 from linkwright.shapes.shape import Shape
 
 
@@ -23,6 +24,7 @@ class Overlaps:
 
     def __init__(self, pairs: PairsOfShapes, shapes: Sequence[tuple[Shape, Shape]], paths: RelativePaths) -> None:
         self._paths, self._outlines, count = paths, pairs.outlines, len(shapes)
+        self._shapes = shapes
         self.pose = np.zeros(count, dtype=np.intp)
         crossing: list[list[tuple[int, ...]]] = [[] for _ in shapes]
         inside: list[list[tuple[int, ...]]] = [[] for _ in shapes]
@@ -48,6 +50,13 @@ class Overlaps:
         place, turn = place[near], turn[near]
         found[near] = self._crossed(pair[near], place, turn) | self._within(pair[near], place, turn)
         return found
+
+    def places(self, pair: Indices, piece: Indices, x: Floats) -> Complexes:
+        """A place within both cores of each of some pairs that overlap, m, in the axes of the first."""
+        place, turn = self._paths.pose(self.pose[pair], piece, x)
+        poses = zip(pair.tolist(), place.tolist(), turn.tolist(), strict=True)
+        found = [common(self._shapes[k][0], self._shapes[k][1], at, way) for k, at, way in poses]
+        return np.array(found, dtype=complex)
 
     def _crossed(self, pair: Indices, place: Complexes, turn: Complexes) -> Flags:
         """Whether a side of one crosses a side of the other."""
@@ -77,6 +86,32 @@ class Overlaps:
         hit = ((low > 0.0) != (high > 0.0)) & right
         odd = np.bincount(job[hit], minlength=len(query)) % 2 == 1
         return np.bincount(query[odd], minlength=len(pair)) > 0
+
+
+def common(first: Shape, second: Shape, place: complex, turn: complex) -> complex:
+    """A place within the cores of both shapes, m, in the axes of the first; ``place``, ``turn``: of the second there.
+
+    It is a corner of one core within the other, or else where two sides cross.
+    """
+    sides, others = (np.concatenate([each.sides for each in shape.pieces]) for shape in (first, second))
+    others = place + turn * others
+    corners = np.concatenate([sides[:, 0], sides[:, 1], others[:, 0], others[:, 1]])
+    away = _away(first, corners) + _away(second, np.conj(turn) * (corners - place))
+    nearest = int(np.argmin(away))
+    at, way = sides[:, 0, None], (sides[:, 1] - sides[:, 0])[:, None]
+    start, along = others[:, 0] - at, others[:, 1] - others[:, 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        shares = [(np.conj(each) * start).imag / (np.conj(along) * way).imag for each in (along, way)]
+        crossing = np.argwhere((abs(shares[0] - 0.5) <= 0.5) & (abs(shares[1] - 0.5) <= 0.5))
+    if away[nearest] > 0.0 and len(crossing):
+        one, other = crossing[0]
+        return complex(sides[one, 0] + shares[0][one, other] * (sides[one, 1] - sides[one, 0]))
+    return complex(corners[nearest])
+
+
+def _away(shape: Shape, points: Complexes) -> Floats:
+    """Distances of points from the cores of a shape, m."""
+    return np.asarray(np.min([core_distances(each, points) for each in shape.pieces], axis=0))
 
 
 class _Listed:

@@ -138,8 +138,7 @@ class Interference(Tabular, Frozen):
             names,
             _("overlap") if pair.overlap else Amount(gap.size, "length", 4),
             Amount(gap.input, self.mechanism.across, 5) if isfinite(gap.input) else Amount(gap.time, "time", 5),
-            Amount(gap.place.real, "length", 4),
-            Amount(gap.place.imag, "length", 4),
+            *gap.cells(self.mechanism.size),
             self._spans_text(gap.spans, language),
         ]
 

@@ -202,11 +202,13 @@ class Search:
             found.x, away = np.where(better, x, found.x), 0.125 * away
         self._cross(found)
         apart, corner, near = self._apart(found, found.x)
+        begun = np.flatnonzero(np.isneginf(found.size))
         found.size = np.minimum(found.size, apart - begin - end)
         found.size[found.size <= self.tolerance] = 0.0
         with np.errstate(invalid="ignore", divide="ignore"):
             way = np.where(apart > 0.0, (near - corner) / apart, 0.0)
         found.place = 0.5 * (corner + near + (begin - end) * way)
+        found.place[begun] = self.overlaps.places(begun, found.piece[begun], found.x[begun])
 
     def _cross(self, found: Nearest) -> None:
         """Moves to the contact where a corner passes over a side within the interval in which that was found."""

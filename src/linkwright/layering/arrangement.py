@@ -258,8 +258,7 @@ class Layers(Tabular, PlotMixin, Frozen):
             conflict.sentence,
             _("overlap") if gap.size <= 0.0 else Amount(gap.size, "length", 4),
             Amount(gap.input, self.mechanism.across, 4) if isfinite(gap.input) else Amount(gap.time, "time", 4),
-            Amount(gap.place.real, "length", 4),
-            Amount(gap.place.imag, "length", 4),
+            *gap.cells(self.mechanism.size),
         ]
 
     def data(self) -> Mapping[str, Any]:
