@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from linkwright.core.arrays import Complexes
-from linkwright.shapes.distance import gap, nearest
+from linkwright.shapes.distance import core_distances, gap, nearest
 from linkwright.shapes.shape import Piece, Shape
 
 #: Pieces touch that overlap by more than this share of their radii.
@@ -153,9 +153,14 @@ def tied(shape: Shape, other: Shape) -> Shape:
 
 def between(pieces: Sequence[Piece], others: Sequence[Piece]) -> Iterator[Piece]:
     """A bar as wide as a piece from there to the nearest of others, none where they touch."""
-    if not pieces or not others:
+    if not pieces or not others or any(_reaches_into(one, other) for one in pieces for other in others):
         return
     gaps = [(*nearest(each, other), each, other) for each in pieces for other in others]
     a, b, piece, other = min(gaps, key=lambda each: abs(each[0] - each[1]) - each[2].radius - each[3].radius)
     if abs(a - b) > max(piece.radius, other.radius):
         yield Piece((np.array([a, b]),), piece.radius or other.radius)
+
+
+def _reaches_into(one: Piece, other: Piece) -> bool:
+    """Whether a corner of one core lies within the other."""
+    return not all(core_distances(one, other.corners)) or not all(core_distances(other, one.corners))

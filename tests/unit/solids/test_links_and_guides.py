@@ -65,3 +65,13 @@ def test_the_slot_of_a_moving_guide_is_in_its_plate() -> None:
     assert ("lever", "die") in found.level
     assert "guide slot" not in found.by_name
     assert found.by_name["die"].sort == "block"
+
+
+def test_an_outline_around_the_posts_of_its_block_stays_as_it_is() -> None:
+    """A ram of 200 mm by 100 mm about B holds the two posts of its block and its pin: nothing sticks out."""
+    corners = "[[-100 mm, -50 mm], [100 mm, -50 mm], [100 mm, 50 mm], [-100 mm, 50 mm]]"
+    ram = f"piston: {{points: [B], also: {{T: [90 mm, 0 mm]}}, shape: {{outline: {corners}}}}}"
+    found = solids(lw.loads(SLIDER_CRANK.replace("piston: {points: [B]}", ram)))
+    low, high = extent(found.by_name["piston"].shape)
+    assert (low, high) == (pytest.approx(-0.1 - 0.05j), pytest.approx(0.1 + 0.05j))
+    assert len(found.by_name["piston"].shape.holes) == 3
