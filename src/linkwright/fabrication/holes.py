@@ -1,7 +1,7 @@
 """Holes of plates: which pin or post goes through each, and whether it is pressed in or turns.
 
-A pin is pressed into its lowest plate, and into all that move with that one; in the others it turns, so that their
-holes are larger by the fit. A post is pressed into both its plates.
+A pin is pressed into its lowest plate, and into all that move with that one; in the others and in rollers it turns,
+so that their holes are larger by the fit. A post is pressed into both its plates.
 """
 
 from __future__ import annotations
@@ -81,12 +81,14 @@ def pin_radius(pin: Solid) -> float:
 
 
 def fixed_plates(layers: Layers, pin: Solid) -> frozenset[str]:
-    """The plates into which a pin is pressed: its lowest one and those that move with that; of a post all."""
+    """The plates into which a pin is pressed: its lowest one and those that move with that, no rollers; of a post all
+    of them."""
     solids = layers.solids.by_name
     if pin.sort == "post":
         return frozenset(pin.plates)
-    lowest = min(pin.plates, key=lambda plate: layers.height[plate])
-    return frozenset(plate for plate in pin.plates if solids[plate].carrier == solids[lowest].carrier)
+    held = [plate for plate in pin.plates if solids[plate].sort != "roller"]
+    lowest = min(held, key=lambda plate: layers.height[plate])
+    return frozenset(plate for plate in held if solids[plate].carrier == solids[lowest].carrier)
 
 
 def level_turn(holes: Sequence[Hole]) -> float:

@@ -59,9 +59,11 @@ class Plates:
 
     def notes(self) -> Iterator[Message]:
         """What is drawn as plates and is to be bought, or made otherwise."""
-        level = {frozenset(each) for each in self.layers.solids.level}
+        solids = self.layers.solids
+        level = {frozenset(each) for each in solids.level}
         for joint in self.layers.mechanism.guides.values():
-            if frozenset((joint.guide, joint.block)) in level:
+            together = frozenset((joint.guide, joint.block)) in level
+            if together and solids.by_name[joint.block].sort != "block":
                 yield _CYLINDER.format(guide=joint.guide, block=joint.block)
 
     def _part(self, solid: Solid, shape: Shape, holes: tuple[Hole, ...], height: tuple[float, float]) -> Part:

@@ -104,3 +104,32 @@ def test_a_block_has_the_fit_as_play_in_its_slot() -> None:
     (slot,) = [loop for loop in found["guide slide"].edge if loop.area < 0.0]
     assert (high - low).imag == pytest.approx(23.9e-3, abs=1e-12)
     assert (slot.box[1] - slot.box[0]).imag == pytest.approx(24e-3, abs=1e-12)
+
+
+CAM = """
+format: 1
+name: cam with a roller
+frame: {points: {O: [0 mm, 0 mm]}}
+links:
+  shaft: {points: [O], also: {K: [10 mm, 0 mm]}}
+  follower: {points: [R], also: {T: [120 mm, 0 mm]}}
+joints:
+  slide: {kind: prismatic, guide: frame, through: O, direction: 90 deg, block: follower, at: R}
+  contact: {kind: cam, cam: shaft, follower: follower, at: R, touch: roller, base_radius: 40 mm, roller_radius: 10 mm,
+    program: [{rise: 20 mm, over: 180 deg, law: cycloidal}, {fall: 20 mm, over: 180 deg, law: cycloidal}]}
+driver: {turn: shaft, about: O, speed: 60 rpm}
+construction: {thickness: 8 mm, width: 16 mm, pin_radius: 4 mm, fit: 0.1 mm}
+"""
+
+
+def test_a_roller_turns_on_its_pin() -> None:
+    """The pin, half as thick as the roller, is pressed into the follower; the roller has the fit of 0.1 mm."""
+    found = lw.cut_parts(lw.loads(CAM))
+    (hole,) = found["roller follower"].holes
+    assert not hole.fixed and hole.radius == pytest.approx(0.004 + 0.00005)
+    (held,) = [each for each in found["follower"].holes if each.pin == hole.pin]
+    assert held.fixed and held.radius == pytest.approx(0.004)
+
+
+def test_a_block_in_the_slot_of_a_lever_is_no_cylinder() -> None:
+    assert not [note for note in made("shaper_quick_return", "").notes if "barrel" in str(note)]
