@@ -16,9 +16,12 @@ from linkwright.files.write import Document
 from linkwright.mechanism.construction import Material
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.sizing.allowed import PIN, Allowed
-from linkwright.sizing.links import LINK_CRITERIA, LinkSize
+from linkwright.sizing.links import LINK_CRITERIA, LinkLoad, LinkSize
 from linkwright.sizing.pins import PIN_CRITERIA, PinSize
 from linkwright.words import Message, Translate, _, pgettext
+
+#: A bending moment below this share of force times length is zero but for rounding.
+NOTHING = 1e-9
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -105,7 +108,7 @@ class LinkSizes(Tabular, Frozen):
             [
                 name,
                 Amount(size.load.force, "force", 4),
-                None if size.load.moment is None else Amount(size.load.moment.value, "torque", 4),
+                _moment(size.load),
                 _given(size.given) or LINK_CRITERIA[size.criterion],
                 Amount(size.width, "length"),
                 Amount(size.load.thickness, "length"),
@@ -162,6 +165,14 @@ class LinkSizes(Tabular, Frozen):
             "pins": {name: _pin_data(each) for name, each in self.pins.items()},
             "notes": [*self.notes, *self.basis],
         }
+
+
+def _moment(load: LinkLoad) -> Amount | None:
+    """The bending moment; as zero where it is one but for rounding."""
+    if load.moment is None:
+        return None
+    least = NOTHING * load.force * (load.length or 0.0)
+    return Amount(load.moment.value if load.moment.value > least else 0.0, "torque", 4)
 
 
 def _given(given: bool) -> Message | None:

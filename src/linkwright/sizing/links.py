@@ -126,7 +126,8 @@ class LinkLoad:
         strength, found = allowed.material.strength, {}
         if self.eyes:
             peak, bore = self.eyes[self.worst_eye(allowed)]
-            found["eye"] = (width - 7.0 * bore / 3.0) * self.thickness * strength / max(peak.value, 1e-300)
+            left = max(width - 7.0 * bore / 3.0, 0.0)
+            found["eye"] = left * self.thickness * strength / max(peak.value, 1e-300)
         if self.section is not None:
             stress = self.section.stress(width, self.thickness) if width > self.section.bore else np.inf
             found["stress"] = strength / max(stress, 1e-300)
