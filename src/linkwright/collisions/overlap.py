@@ -98,12 +98,14 @@ def common(first: Shape, second: Shape, place: complex, turn: complex) -> comple
     corners = np.concatenate([sides[:, 0], sides[:, 1], others[:, 0], others[:, 1]])
     away = _away(first, corners) + _away(second, np.conj(turn) * (corners - place))
     nearest = int(np.argmin(away))
+    if away[nearest] == 0.0:
+        return complex(corners[nearest])
     at, way = sides[:, 0, None], (sides[:, 1] - sides[:, 0])[:, None]
     start, along = others[:, 0] - at, others[:, 1] - others[:, 0]
     with np.errstate(divide="ignore", invalid="ignore"):
         shares = [(np.conj(each) * start).imag / (np.conj(along) * way).imag for each in (along, way)]
         crossing = np.argwhere((abs(shares[0] - 0.5) <= 0.5) & (abs(shares[1] - 0.5) <= 0.5))
-    if away[nearest] > 0.0 and len(crossing):
+    if len(crossing):
         one, other = crossing[0]
         return complex(sides[one, 0] + shares[0][one, other] * (sides[one, 1] - sides[one, 0]))
     return complex(corners[nearest])
