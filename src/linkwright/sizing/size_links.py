@@ -8,9 +8,9 @@ from functools import cached_property
 from itertools import combinations
 from math import dist
 
-from linkwright.core.arguments import integer, real, require
+from linkwright.core.arguments import integer, positive, real, require
 from linkwright.core.quantity import shown
-from linkwright.errors import LinkwrightError
+from linkwright.errors import LinkwrightError, RequestError
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.construction import MATERIALS, Construction, LinkShape, Material
 from linkwright.mechanism.mechanism import Mechanism
@@ -76,7 +76,7 @@ def size_links(
     """
     require(mechanism, Mechanism)
     construction = mechanism.construction or Construction()
-    factor = _above("safety", safety, 1.0) if safety is not None else construction.safety
+    factor = construction.safety if safety is None else _safety(safety)
     if not mechanism.has_loads:
         raise LinkwrightError(
             _(
@@ -86,24 +86,18 @@ def size_links(
                 name=mechanism.name,
             )
         )
-    running = None if pressure is None else _above("pressure", pressure, 0.0)
+    running = None if pressure is None else positive("pressure", pressure)
     usual = construction.material if material is None else _material(material)
-    plate = construction.thickness if thickness is None else _above("thickness", thickness, 0.0)
+    plate = construction.thickness if thickness is None else positive("thickness", thickness)
     forces = solve_forces(mechanism, steps=integer("steps", steps, 1))
     return Sizing(MachineLoads(mechanism, forces), construction, usual, factor, running, plate).found()
 
 
-def _above(option: str, value: float, limit: float) -> float:
-    found = real(option, value)
-    if found <= 0.0 or found < limit:
-        raise LinkwrightError(
-            _(
-                "{option} is {value:g}; give a number of at least {limit:g}, above zero",
-                code="sizing.too_small",
-                option=option,
-                value=found,
-                limit=limit,
-            )
+def _safety(value: float) -> float:
+    found = real("safety", value)
+    if found < 1.0:
+        raise RequestError(
+            _("safety is {value:g}; give a factor of at least 1", code="sizing.too_small", value=found)
         )
     return found
 
