@@ -47,7 +47,7 @@ class LinkShape(Frozen):
         return {
             f".{key}{end}": number
             for key, field in SHAPE_FIELDS.items()
-            if key in _NUMBERS and (value := getattr(self, key)) is not None
+            if key in _PLAIN_KEYS and (value := getattr(self, key)) is not None
             for end, number in field.flatten(value).items()
         }
 
@@ -57,20 +57,21 @@ class LinkShape(Frozen):
             self,
             **{
                 key: SHAPE_FIELDS[key].rebuild(old, lambda end, key=key: value(f".{key}{end}"))  # type: ignore[misc]
-                for key in _NUMBERS
+                for key in _PLAIN_KEYS
                 if (old := getattr(self, key)) is not None
             },
         )
 
     def written(self) -> Any:
         """As plain data for a file: a word where there is nothing else to say."""
-        found: dict[str, Any] = {key: getattr(self, key) for key in _NUMBERS if getattr(self, key) not in (None, ())}
+        plain = {key: getattr(self, key) for key in _PLAIN_KEYS}
+        found: dict[str, Any] = {key: each for key, each in plain.items() if each not in (None, ())}
         if self.rings:
             found["outline"] = self.rings[0]
         if self.rings[1:]:
             found["holes"] = self.rings[1:]
         told = {key: SHAPE_FIELDS[key].written(value) for key, value in found.items()}
-        implied = next((kind for key, kind in _FOLLOWS.items() if key in told), None)
+        implied = next((kind for key, kind in _KIND_BY_KEY.items() if key in told), None)
         if not told:
             return self.kind
         return told if self.kind in (None, implied) else {"kind": self.kind, **told}
@@ -141,11 +142,11 @@ SHAPE_FIELDS: Mapping[str, Field] = {
     "file": Text(doc=_("DXF file with the outline and the holes in the link's axes, next to the model file")),
 }
 #: The keys that an object has as they are.
-_NUMBERS = ("width", "radius", "thickness", "material", "through")
+_PLAIN_KEYS = ("width", "radius", "thickness", "material", "through")
 #: The kind that a key means.
-_FOLLOWS: Mapping[str, ShapeKind] = {"through": "path", "outline": "outline", "file": "outline", "radius": "disc"}
+_KIND_BY_KEY: Mapping[str, ShapeKind] = {"through": "path", "outline": "outline", "file": "outline", "radius": "disc"}
 #: The keys that go with a kind, besides thickness and material.
-_OWN: Mapping[ShapeKind | None, tuple[str, ...]] = {
+_KEYS_BY_KIND: Mapping[ShapeKind | None, tuple[str, ...]] = {
     None: ("width",),
     "bar": ("width",),
     "plate": ("width",),
@@ -155,7 +156,7 @@ _OWN: Mapping[ShapeKind | None, tuple[str, ...]] = {
     "none": (),
 }
 #: The key without which a kind says nothing.
-_NEEDED: Mapping[ShapeKind, str] = {"path": "through", "outline": "outline", "disc": "radius"}
+_REQUIRED_KEY: Mapping[ShapeKind, str] = {"path": "through", "outline": "outline", "disc": "radius"}
 
 
 @dataclass(frozen=True)
@@ -172,14 +173,14 @@ class ShapeField(Field):
         if values is None or reader.error_count > before:
             return None
         kind: ShapeKind | None = values.get("kind") or next(
-            (_FOLLOWS[key] for key in _FOLLOWS if key in values), None
+            (_KIND_BY_KEY[key] for key in _KIND_BY_KEY if key in values), None
         )
         if not _fits(reader, node, place, kind, values):
             return None
         rings = self._rings(reader, node, place, values)
         if rings is None:
             return None
-        return LinkShape(kind, rings=rings, **{key: values[key] for key in _NUMBERS if key in values})
+        return LinkShape(kind, rings=rings, **{key: values[key] for key in _PLAIN_KEYS if key in values})
 
     def _rings(self, reader: Reader, node: Node, place: Place, values: Mapping[str, Any]) -> tuple[Ring, ...] | None:
         """The outline and its holes, () where there is none; None after a finding."""
@@ -212,9 +213,9 @@ class ShapeField(Field):
 
 def _fits(reader: Reader, node: Node, place: Place, kind: ShapeKind | None, values: Mapping[str, Any]) -> bool:
     """Whether the keys of a shape go with its kind and with each other."""
-    own = _OWN[kind] if kind == "none" else (*_OWN[kind], "thickness", "material")
+    own = _KEYS_BY_KIND[kind] if kind == "none" else (*_KEYS_BY_KIND[kind], "thickness", "material")
     odd = next((key for key in values if key != "kind" and key not in own), None)
-    needed = _NEEDED.get(kind) if kind else None
+    needed = _REQUIRED_KEY.get(kind) if kind else None
     at = node.get(odd or "kind") if isinstance(node, MappingNode) else node
     if odd is not None:
         problem = _('"{key_}" does not go with kind: {kind}', code="shapes.odd_key", key_=odd, kind=kind or "bar")

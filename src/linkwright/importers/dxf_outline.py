@@ -106,17 +106,10 @@ def _path(each: Any, kind: str, sagitta: float) -> tuple[list[Any], bool] | None
     if kind == "POLYLINE" and each.is_2d_polyline:
         vertices = [(*vertex.dxf.location.vec2, vertex.dxf.get("bulge", 0.0)) for vertex in each.vertices]
         return _polyline(each, vertices, bool(each.is_closed), sagitta)
-    if kind in ("CIRCLE", "ARC"):
-        centre, radius = complex(*each.dxf.center.vec2), each.dxf.radius
-        first, last = (0.0, 360.0) if kind == "CIRCLE" else (each.dxf.start_angle, each.dxf.end_angle)
-        sweep = math.radians((last - first) % 360.0 or 360.0)
-        ends = [centre + radius * np.exp(1j * (math.radians(first) + share * sweep)) for share in (0.0, 0.5, 1.0)]
-        bulge = math.tan(sweep / 8.0)
-        vertices = [(ends[0].real, ends[0].imag, bulge), (ends[1].real, ends[1].imag, bulge)]
-        vertices += [(ends[2].real, ends[2].imag, 0.0)] if kind == "ARC" else []
-        return _polyline(each, vertices, kind == "CIRCLE", sagitta)
-    if kind in ("ELLIPSE", "SPLINE"):
+    if kind in ("CIRCLE", "ARC", "ELLIPSE", "SPLINE"):
         places = list(each.flattening(sagitta))
+        if not places:
+            return None
         closed = places[0].isclose(places[-1], abs_tol=1e-9 * max(abs(places[0].x), abs(places[0].y), 1.0))
         return (places[:-1] if closed else places), closed
     return None

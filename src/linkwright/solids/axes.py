@@ -90,7 +90,7 @@ def _crossed(draft: Draft, axis: Axis) -> frozenset[str]:
     for solid in draft.solids.values():
         if solid.sort == "frame" or not solid.is_plate or solid.carrier in axis.places.keys() - {"frame"}:
             continue
-        seen = draft.seen_place("frame", place, solid.carrier)
+        seen = draft.path_of("frame", place, solid.carrier)
         seen = seen[np.abs(seen - solid.shape.bound[0]) <= solid.shape.bound[1] + radius]
         if any((core_distances(each, seen) <= each.radius + radius).any() for each in solid.shape.pieces):
             found.add(solid.carrier)

@@ -169,12 +169,12 @@ class Draft:
         reached = displacement[np.isfinite(displacement)]
         return (float(reached.min()), float(reached.max())) if len(reached) else (0.0, 0.0)
 
-    def seen(self, link: str, point: str, on: str) -> Complexes:
-        """A point of a link at all positions that are reached, as complex numbers in the axes of a carrier, m."""
-        return self.seen_place(self.carriers.carrier(link), self.carriers.place(link, point), on)
+    def point_path(self, link: str, point: str, on: str) -> Complexes:
+        """A point of a link at all positions that are reached, in the axes of a carrier, complex numbers, m."""
+        return self.path_of(self.carriers.carrier(link), self.carriers.place(link, point), on)
 
-    def seen_place(self, carrier: str, place: complex, on: str) -> Complexes:
-        """A place in the axes of a carrier, as complex numbers in those of another one, m."""
+    def path_of(self, carrier: str, place: complex, on: str) -> Complexes:
+        """A place of a carrier at all positions that are reached, in the axes of another one, complex numbers, m."""
         placed = self.placed[on]
         gap = self.placed[carrier].world((place.real, place.imag)) - placed.origin
         found = (gap[:, 0] + 1j * gap[:, 1]) * (placed.direction[:, 0] - 1j * placed.direction[:, 1])

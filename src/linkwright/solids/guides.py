@@ -136,7 +136,7 @@ def _pins_in_the_way(draft: Draft, slide: Slide) -> list[float]:
         if block in map(draft.carriers.carrier, pin.joined):
             continue
         radius = draft.sizes.pin_radius[name] + 3.0 * slide.slot.wall
-        local = (draft.seen(pin.joined[0], name, guide) - slide.slot.start) * slide.slot.way.conjugate()
+        local = (draft.point_path(pin.joined[0], name, guide) - slide.slot.start) * slide.slot.way.conjugate()
         near = local[abs(local.imag) <= slide.slot.half + radius].real
         found += [float(near.min()) - radius, float(near.max()) + radius] if len(near) else []
     return found

@@ -58,7 +58,7 @@ def rack_of(draft: Draft, joint: RackPair) -> Rack:
     width, module = draft.width(body), _module(joint)
     way = draft.carriers.places[joint.rack].turn * cmath.exp(1j * joint.direction)
     through = draft.carriers.place(joint.rack, joint.through)
-    seen = ((draft.seen(joint.pinion, joint.centre, body.carrier) - through) * way.conjugate()).real
+    seen = ((draft.point_path(joint.pinion, joint.centre, body.carrier) - through) * way.conjugate()).real
     low, high = (float(seen.min()), float(seen.max())) if len(seen) else (0.0, 0.0)
     beyond, back = max(TEETH_BEYOND * module, BEYOND * width), max(BACK * module, BARE * width)
     across = 1j * joint.side * way

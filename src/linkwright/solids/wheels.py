@@ -131,7 +131,7 @@ def _distance(draft: Draft, one: Wheel, other: Wheel) -> np.ndarray:
     """Of the centres of two wheels, m, at all positions."""
     if one.body is other.body:
         return np.array([abs(one.centre - other.centre)])
-    seen = draft.seen_place(other.body.carrier, other.centre, one.body.carrier)
+    seen = draft.path_of(other.body.carrier, other.centre, one.body.carrier)
     return np.abs(seen - one.centre) if len(seen) else np.array([np.inf])
 
 
