@@ -150,7 +150,7 @@ def test_nothing_is_left_behind_when_writing_fails(tmp_path: Path) -> None:
     ("name", "options", "code", "values"),
     [
         ("a.xslx", {}, "export.no_ending", {"suffix": ".xslx", "offer": ".xlsx"}),
-        ("a.step", {}, "export.no_ending", {"suffix": ".step"}),
+        ("a.iges", {}, "export.no_ending", {"suffix": ".iges"}),
         ("a", {}, "export.no_ending", {"suffix": ""}),
         ("a.csv", {"format": "exel"}, "names.no_such", {"name": "exel", "offer": "xlsx"}),
         ("a.csv", {"degree": True}, "export.no_option", {"option": "degree", "offer": "degrees", "name": "csv"}),

@@ -23,6 +23,8 @@ SECTIONS = (
         "flywheel",
         "run",
         "synthesis",
+        "sizing",
+        "parts",
         "errata",
         "calls",
         "program",
