@@ -122,7 +122,7 @@ RESULTS: dict[str, Callable[[], Any]] = {
     "expectation": lambda: made("expectations").rows[0],
     "parts to make": lambda: lw.cut_parts(store.machine("kite")),
     "layers": lambda: lw.layers(lw.load("gallery:crank_rocker")),
-    "conflict": lambda: lw.layers(lw.load("gallery:crank_rocker"), supports="both").conflicts[0],
+    "conflict": lambda: lw.layers(lw.load("gallery:whitworth")).conflicts[0],
     "loops in MuJoCo": lambda: lw.mujoco_loops(lw.load("gallery:kite"), steps=24),
     "sizes of links": lambda: lw.size_links(lw.load("gallery:kite"), steps=24),
     "balancing": lambda: lw.balance(lw.load("gallery:crank_rocker"), radius=0.1),

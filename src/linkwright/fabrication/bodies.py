@@ -5,26 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from itertools import cycle
 
-from linkwright.fabrication.body import Body, Pose, Section
+from linkwright.fabrication.body import Body, Pose, Section, link_poses
 from linkwright.fabrication.cut_parts import CutParts
 from linkwright.fabrication.part import Part
 from linkwright.fields.colour import as_rgb
 from linkwright.kinematics.motion import Motion
-from linkwright.kinematics.placement import placements
 from linkwright.shapes.boundary import boundary
 
 #: Colours of plates in turn, where their links have none; of the frame's, and of what is turned.
 PLATES = ("#8fb3d9", "#e3b778", "#9cc69b", "#c9a3c9", "#e39b8b", "#8cc5c0", "#c5bd7a", "#b3a99d")
 FRAME, PINS, RINGS = "#c3c8ce", "#9aa1aa", "#d6c6a8"
-
-
-def link_poses(motion: Motion, index: int) -> dict[str, Pose]:
-    """Where every link is at a position of the motion, the frame included."""
-    found = {}
-    for name, placed in placements(motion).items():
-        (x, y), (c, s) = placed.origin[index].tolist(), placed.direction[index].tolist()
-        found[name] = Pose(complex(x, y), complex(c, s))
-    return found
 
 
 def body_of(part: Part, links: Mapping[str, Pose], colour: str) -> Body:

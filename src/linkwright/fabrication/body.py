@@ -10,6 +10,8 @@ from typing import TypeVar
 import numpy as np
 
 from linkwright.core.arrays import Complexes
+from linkwright.kinematics.motion import Motion
+from linkwright.kinematics.placement import placements
 from linkwright.shapes.loop import Loop
 
 Place = TypeVar("Place", complex, Complexes)
@@ -46,6 +48,19 @@ class Pose:
     def of(self, place: Place) -> Place:
         """A place in the body's axes, or several, in those of the frame, m."""
         return self.at + self.along * place
+
+    def local(self, place: complex) -> complex:
+        """A place in the axes of the frame in the body's, m."""
+        return (place - self.at) / self.along
+
+
+def link_poses(motion: Motion, index: int) -> dict[str, Pose]:
+    """Where every link is at a position of the motion, the frame included."""
+    found = {}
+    for name, placed in placements(motion).items():
+        (x, y), (c, s) = placed.origin[index].tolist(), placed.direction[index].tolist()
+        found[name] = Pose(complex(x, y), complex(c, s))
+    return found
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ from linkwright.core.arguments import require
 from linkwright.core.attached import PlotMixin, attached
 from linkwright.core.table import Table, Tabular
 from linkwright.errors import LinkwrightError
-from linkwright.fabrication.holes import Pose
+from linkwright.fabrication.holes import Assembly
 from linkwright.fabrication.part import Part
 from linkwright.fabrication.plates import Plates
 from linkwright.fabrication.room import Room
@@ -93,7 +93,7 @@ def parts_in(found: Layers) -> CutParts:
         )
     construction, steel = found.mechanism.construction, MATERIALS["steel"]
     fit, washer = (0.0, 0.0) if construction is None else (construction.fit, construction.washer or 0.0)
-    pose = Pose.of(found)
+    pose = Assembly.of(found)
     turned = Turned(found, pose, Room(found, pose), steel.name, steel.density, fit, washer)
     plates = Plates(found, pose)
     parts = (*plates.parts(), *turned.pins(), *turned.rings())

@@ -15,8 +15,8 @@ import numpy as np
 
 from linkwright.core.quantity import shown
 from linkwright.errors import RequestError
+from linkwright.fabrication.body import Pose, link_poses
 from linkwright.fabrication.part import Hole, Part
-from linkwright.kinematics.placement import placements
 from linkwright.kinematics.solve import solve_motion
 from linkwright.layering.arrangement import Layers
 from linkwright.shapes.distance import contains
@@ -36,7 +36,7 @@ _OVERLAP = _(
 SAME = 1e-7
 
 
-def holes_of(layers: Layers, pose: Pose) -> Mapping[str, tuple[Hole, ...]]:
+def holes_of(layers: Layers, pose: Assembly) -> Mapping[str, tuple[Hole, ...]]:
     """The holes of all plates, by the names of the plates: what goes through them is where they are when the machine
     is put together at one position."""
     solids = layers.solids.by_name
@@ -49,10 +49,10 @@ def holes_of(layers: Layers, pose: Pose) -> Mapping[str, tuple[Hole, ...]]:
     return found
 
 
-def _holes(layers: Layers, pose: Pose, plate: Solid, pins: list[Solid]) -> Iterator[Hole]:
+def _holes(layers: Layers, pose: Assembly, plate: Solid, pins: list[Solid]) -> Iterator[Hole]:
     fit = 0.0 if layers.mechanism.construction is None else layers.mechanism.construction.fit
     for centre, radius in plate.shape.holes:
-        place = pose.world(plate.carrier, centre)
+        place = pose.links[plate.carrier].of(centre)
         through = [each for each in pins if abs(pose.axis(each) - place) <= pose.near]
         pin = max(through, key=pin_radius, default=None)  # a pin within a hub does not touch the plate
         if pin is None:
@@ -67,7 +67,7 @@ def axis(pin: Solid) -> complex:
     return complex(pin.shape.pieces[0].corners[0])
 
 
-def hubs_around(layers: Layers, pose: Pose, pin: Solid) -> list[Solid]:
+def hubs_around(layers: Layers, pose: Assembly, pin: Solid) -> list[Solid]:
     """The posts around a pin: hubs that hold a wheel on its link, in which the pin turns."""
     posts = (
         each for each in layers.solids.by_name.values() if each.sort == "post" and {*each.plates} & {*pin.plates}
@@ -113,33 +113,18 @@ def check_holes(part: Part) -> None:
 
 
 @dataclass(frozen=True)
-class Pose:
-    """Where the links are at the first position that is reached: origin (m) and turn (unit complex number)."""
+class Assembly:
+    """Where the ``links`` are at the first position that is reached; places within ``near`` (m) are one."""
 
-    links: Mapping[str, tuple[complex, complex]]
+    links: Mapping[str, Pose]
     near: float
 
     @classmethod
-    def of(cls, layers: Layers) -> Pose:
-        """The pose of a machine."""
+    def of(cls, layers: Layers) -> Assembly:
+        """That of a machine."""
         motion = solve_motion(layers.mechanism, failures="mark")
-        first = int(motion.ok.argmax())
-        links = {
-            name: (complex(*each.origin[first]), complex(*each.direction[first]))
-            for name, each in placements(motion).items()
-        }
-        return cls(links, SAME * layers.mechanism.size)
-
-    def world(self, link: str, place: complex) -> complex:
-        """A place in a link's axes in those of the frame, m."""
-        origin, turn = self.links[link]
-        return origin + turn * place
-
-    def local(self, link: str, place: complex) -> complex:
-        """A place in the frame's axes in those of a link, m."""
-        origin, turn = self.links[link]
-        return (place - origin) / turn
+        return cls(link_poses(motion, int(motion.ok.argmax())), SAME * layers.mechanism.size)
 
     def axis(self, pin: Solid) -> complex:
         """Where a pin or post is, m."""
-        return self.world(pin.carrier, axis(pin))
+        return self.links[pin.carrier].of(axis(pin))

@@ -5,16 +5,16 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
 from linkwright.fabrication.holes import level_turn
 from linkwright.fabrication.part import Hole
+from linkwright.fabrication.raster import box, turned
 from linkwright.pictures.picture import round_up
 from linkwright.shapes.distance import contains
-from linkwright.shapes.shape import Piece, Shape
+from linkwright.shapes.shape import Shape
 
 #: Radius of a mounting hole as a share of that of the smallest pin, and the wall around it as a share of its radius.
 RADIUS, WALL = 0.75, 1.0
@@ -30,7 +30,7 @@ def mounting_holes(shape: Shape, holes: Sequence[Hole], heads: float) -> tuple[H
         return ()
     radius = RADIUS * min(each.radius for each in holes)
     origin, way = holes[0].centre, cmath.exp(1j * level_turn(holes))
-    level = Shape(tuple(replace(each, rings=_turned(each, origin, way)) for each in shape.pieces))
+    level = turned(turned(shape, 0.0, -origin), -level_turn(holes))
     places = origin + way * _places(level, radius)
     for hole in holes:
         places = places[np.abs(places - hole.centre) > heads * hole.radius + (1.0 + WALL) * radius]
@@ -44,27 +44,14 @@ def mounting_holes(shape: Shape, holes: Sequence[Hole], heads: float) -> tuple[H
     return tuple(Hole("", each, radius, False) for each in found)
 
 
-def _turned(piece: Piece, origin: complex, way: complex) -> tuple[Complexes, ...]:
-    """The rings of a piece in axes about a hole, the farthest other one level with it."""
-    return tuple((ring - origin) * way.conjugate() for ring in piece.rings)
-
-
-def _box(shape: Shape) -> tuple[complex, complex]:
-    pieces = shape.pieces
-    low = [each.corners - each.radius * (1.0 + 1.0j) for each in pieces]
-    high = [each.corners + each.radius * (1.0 + 1.0j) for each in pieces]
-    a, b = np.concatenate(low), np.concatenate(high)
-    return complex(a.real.min(), a.imag.min()), complex(b.real.max(), b.imag.max())
-
-
 def _corners(shape: Shape) -> list[complex]:
-    low, high = _box(shape)
+    low, high = box(shape)
     return [low, high, complex(high.real, low.imag), complex(low.real, high.imag)]
 
 
 def _places(shape: Shape, radius: float) -> Complexes:
     """Places on round coordinates around which there is room for a hole and its wall."""
-    low, high = _box(shape)
+    low, high = box(shape)
     step = round_up(max((high - low).real, (high - low).imag) / GRID)
     x: Floats = step * np.arange(math.ceil(low.real / step), high.real / step)
     y: Floats = step * np.arange(math.ceil(low.imag / step), high.imag / step)

@@ -1,4 +1,4 @@
-"""Outlines of plates, at a distance where a cut has some width: exact, and fast for teeth with many corners."""
+"""Outlines of plates at a distance where a cut has some width: exact, and fast for teeth with many corners."""
 
 from __future__ import annotations
 
@@ -7,25 +7,23 @@ from collections.abc import Iterator
 import numpy as np
 
 from linkwright.core.arrays import Complexes, Floats
-from linkwright.shapes.boundary import boundary
+from linkwright.shapes.boundary import NEAR, boundary
 from linkwright.shapes.loop import Edge, Loop
+from linkwright.shapes.rings import clear_of_each_other
 from linkwright.shapes.shape import Piece, Shape
 
-#: A polygon with more corners than this is followed corner by corner where it is simple.
-MANY = 250
-#: Pairs of sides that are compared at once.
-ROWS = 256
-#: Sides whose directions differ by less than this (sine) go on straight.
-STRAIGHT = 1e-9
+#: Sides whose directions differ by less than this (rad) go on to a common corner.
+STRAIGHT = 1e-5
 
 
 def outline(shape: Shape, by: float = 0.0) -> tuple[Loop, ...]:
     """The outline of a shape without its bored holes, everywhere at a distance (m) outside: loops around material
     counter-clockwise, then those around slots and openings clockwise."""
-    if len(shape.pieces) == 1 and (found := _around_polygon(shape.pieces[0], by)):
+    if not by:
+        return boundary(Shape(shape.pieces))
+    if len(shape.pieces) == 1 and (found := _around_polygon(shape, by)):
         return found
-    pieces = tuple(each for piece in shape.pieces for each in _widened(piece, by)) if by else shape.pieces
-    return boundary(Shape(pieces))
+    return boundary(Shape(tuple(each for piece in shape.pieces for each in _widened(piece, by))))
 
 
 def _widened(piece: Piece, by: float) -> Iterator[Piece]:
@@ -38,27 +36,22 @@ def _widened(piece: Piece, by: float) -> Iterator[Piece]:
         yield Piece((np.append(ring, ring[:1]),), by)
 
 
-def _around_polygon(piece: Piece, by: float) -> tuple[Loop, ...]:
-    """The outline of one polygon with many corners, its openings within; empty for anything else, and where lines at
-    the distance would cross."""
-    if not piece.filled or piece.radius or len(piece.corners) <= MANY:
+def _around_polygon(shape: Shape, by: float) -> tuple[Loop, ...]:
+    """The outline of one polygon, its openings within; empty for anything else, and where lines at the distance
+    would cross."""
+    (piece,) = shape.pieces
+    if not piece.filled or piece.radius:
         return ()
-    rings = [_turned(ring, outer=number == 0) for number, ring in enumerate(piece.rings)]
-    found = [_moved(ring, by) for ring in rings]
+    near = NEAR * shape.bound[1]
+    loops = boundary(Shape(shape.pieces))
+    found = [_moved(np.array([each.start for each in loop.edges]), by, near) for loop in loops]
     corners = [each for each in found if each is not None]
-    if len(corners) < len(rings) or not _apart([ends for ends, _bulges in corners]):
+    if len(corners) < len(loops) or not clear_of_each_other([ends for ends, _bulges in corners], near):
         return ()
     return tuple(_loop(ends, bulges) for ends, bulges in corners)
 
 
-def _turned(ring: Complexes, *, outer: bool) -> Complexes:
-    """A ring without corners at one place, counter-clockwise if it is the outer one, else clockwise."""
-    ring = ring[np.abs(np.roll(ring, -1) - ring) > 0.0]
-    area = float((ring.conj() * np.roll(ring, -1)).imag.sum())
-    return ring if (area > 0.0) == outer else ring[::-1]
-
-
-def _moved(ring: Complexes, by: float) -> tuple[Complexes, Floats] | None:
+def _moved(ring: Complexes, by: float, near: float) -> tuple[Complexes, Floats] | None:
     """Corners of a ring moved to its right by a distance, and the bulges of the edges behind them: arcs around those
     that point outwards; None where a side is too short for that."""
     step = np.roll(ring, -1) - ring
@@ -67,46 +60,17 @@ def _moved(ring: Complexes, by: float) -> tuple[Complexes, Floats] | None:
     back = np.roll(ahead, 1)
     turn = np.angle(ahead / back)
     outwards = turn > STRAIGHT
-    inwards = np.where(outwards, 0.0, turn)
-    trim = by * np.tan(-0.5 * inwards)
+    trim = by * np.tan(np.where(outwards, 0.0, -0.5 * turn))
     if bool((trim + np.roll(trim, -1) >= length).any()):
         return None
-    before = np.where(outwards, ring - 1j * by * back, ring - 1j * by * back - trim * back)
+    before = ring - (1j * by + trim) * back
     after = np.where(outwards, ring - 1j * by * ahead, before)
     ends, bulges = np.stack([before, after], axis=1).ravel(), np.zeros(2 * len(ring))
     bulges[::2] = np.where(outwards, np.tan(0.25 * turn), 0.0)
-    kept = np.abs(np.roll(ends, -1) - ends) > 0.0
+    kept = np.abs(np.roll(ends, -1) - ends) > near
     return ends[kept], bulges[kept]
 
 
 def _loop(ends: Complexes, bulges: Floats) -> Loop:
     places, following = ends.tolist(), np.roll(ends, -1).tolist()
     return Loop(tuple(map(Edge, places, following, bulges.tolist())))
-
-
-def _apart(rings: list[Complexes]) -> bool:
-    """Whether no two sides of some rings cross or touch but at the corner between them."""
-    start = np.concatenate(rings)
-    end = np.concatenate([np.roll(ring, -1) for ring in rings])
-    low = np.minimum(start.real, end.real) + 1j * np.minimum(start.imag, end.imag)
-    high = np.maximum(start.real, end.real) + 1j * np.maximum(start.imag, end.imag)
-    for first in range(0, len(start), ROWS):
-        rows = slice(first, first + ROWS)
-        meet = (low[rows, None].real <= high.real) & (low.real <= high[rows, None].real)
-        meet &= (low[rows, None].imag <= high.imag) & (low.imag <= high[rows, None].imag)
-        i, j = np.nonzero(meet)
-        i += first
-        other = (i < j) & (end[i] != start[j]) & (end[j] != start[i])
-        if _crossing(start, end, i[other], j[other]):
-            return False
-    return True
-
-
-def _crossing(start: Complexes, end: Complexes, one: np.ndarray, other: np.ndarray) -> bool:
-    """Whether any of the sides ``one`` meets the side of ``other`` next to it."""
-
-    def side(a: Complexes, b: Complexes, place: Complexes) -> Floats:
-        return np.asarray(np.sign(((b - a).conj() * (place - a)).imag))
-
-    a, b, c, d = start[one], end[one], start[other], end[other]
-    return bool(((side(a, b, c) * side(a, b, d) <= 0.0) & (side(c, d, a) * side(c, d, b) <= 0.0)).any())

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from linkwright.fabrication.holes import Pose, check_holes, holes_of, pin_radius
+from linkwright.fabrication.holes import Assembly, check_holes, holes_of, pin_radius
 from linkwright.fabrication.mounting import mounting_holes
 from linkwright.fabrication.part import Hole, Part, Place
 from linkwright.fabrication.wheel_plates import WheelPlates
@@ -33,7 +33,7 @@ class Plates:
     """Makes the plates of a machine in layers."""
 
     layers: Layers
-    pose: Pose
+    pose: Assembly
 
     @cached_property
     def wheels(self) -> WheelPlates:
@@ -113,7 +113,7 @@ class Plates:
                 pin.sort == "pin"
                 and (min(pin.name, block.name), max(pin.name, block.name)) in self.layers.solids.joined
             ):
-                centre = self.pose.local(block.carrier, self.pose.axis(pin))
+                centre = self.pose.links[block.carrier].local(self.pose.axis(pin))
                 low, high = self.layers.z(pin.name)
                 if contains(block.shape, np.array([centre]))[0] and low < height[1] and height[0] < high:
                     found.append(Hole(pin.name, centre, pin_radius(pin) + 0.5 * fit, False))

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from linkwright.collisions.gaps import Moving, smallest_gaps
-from linkwright.fabrication.holes import Pose, axis, hubs_around, pin_radius
+from linkwright.fabrication.holes import Assembly, axis, hubs_around, pin_radius
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.solve import solve_motion
 from linkwright.layering.arrangement import Layers
@@ -21,7 +21,7 @@ class Room:
     """The room around the pins of a machine in layers."""
 
     layers: Layers
-    pose: Pose
+    pose: Assembly
 
     @cached_property
     def motion(self) -> Motion:

@@ -10,7 +10,7 @@ import numpy as np
 
 from linkwright.fabrication.columns import Bar, Column, Development
 from linkwright.fabrication.cut_parts import CutParts
-from linkwright.fabrication.holes import Pose, axis, hubs_around
+from linkwright.fabrication.holes import Assembly, axis, hubs_around
 from linkwright.fabrication.part import Part
 from linkwright.solids.solid import Solid, Solids
 
@@ -46,9 +46,9 @@ class Stack:
         return self.cut.layers.solids
 
     @cached_property
-    def pose(self) -> Pose:
+    def pose(self) -> Assembly:
         """Where the links are, by which axes are sorted."""
-        return Pose.of(self.cut.layers)
+        return Assembly.of(self.cut.layers)
 
     @cached_property
     def plates(self) -> dict[str, Part]:
@@ -66,7 +66,7 @@ class Stack:
         held = {plate for each in found for plate in each.plates}
         alone = (solid for solid in every if solid.is_plate and solid.name not in held)
         found += [Axis(solid, self._with_guides([solid.name])) for solid in alone]
-        return sorted(found, key=lambda each: self.pose.world(each.solid.carrier, each.at).real)
+        return sorted(found, key=lambda each: self.pose.links[each.solid.carrier].of(each.at).real)
 
     def _pinned(self, pin: Solid, hubs: Sequence[Solid]) -> Axis:
         """The axis of a pin or post."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 from linkwright.core.quantity import shown
-from linkwright.fabrication.holes import Pose, axis, fixed_plates, hubs_around, pin_radius
+from linkwright.fabrication.holes import Assembly, axis, fixed_plates, hubs_around, pin_radius
 from linkwright.fabrication.part import Part, Place, Sort
 from linkwright.fabrication.room import Room
 from linkwright.layering.arrangement import Layers
@@ -34,7 +34,7 @@ class Turned:
     """Makes the turned parts of a machine in layers; ``material``: its name and density (kg/m³)."""
 
     layers: Layers
-    pose: Pose
+    pose: Assembly
     room: Room
     material: str
     density: float

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import shapely
 
-from linkwright.fabrication.outlines import MANY, outline
+from linkwright.fabrication.outlines import outline
 from linkwright.gears.gear import Gear
 from linkwright.shapes.boundary import boundary
 from linkwright.shapes.loop import Loop
@@ -47,7 +47,6 @@ def test_a_bar_grows_by_its_radius() -> None:
 @pytest.mark.parametrize("internal", [False, True])
 def test_many_corners_go_the_short_way_with_the_same_area(internal: bool) -> None:
     teeth = corners_of(Gear(18 if not internal else 50, 0.002, internal=internal).outline(6))
-    assert len(teeth) > MANY
     rim = 0.07 * np.exp(2j * np.pi * np.arange(90) / 90)
     shape = polygon(rim, [teeth]) if internal else polygon(teeth)
     for by in (0.0, 0.1e-3):

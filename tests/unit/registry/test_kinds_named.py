@@ -82,6 +82,13 @@ LEFT: Mapping[str, tuple[int, str]] = {
     "worked_solutions/applied_forces.py": (6, "the formulas of loads, by type"),
     "plotting/drawing/draw.py": (2, "the kind of arrows on paper: velocities, accelerations, forces"),
     "plotting/animation.py": (1, "the kind of arrows on paper"),
+    "solids/wheels.py": (10, "plates and posts of wheels, by type of pair"),
+    "solids/racks.py": (1, "the plate of a rack, from the function that finds its pair"),
+    "solids/cams.py": (2, "plates and rollers of cam joints"),
+    "solids/mounting.py": (1, "the hub on which a cam is"),
+    "solids/draft.py": (2, "what a cam joint's axes hold apart"),
+    "fabrication/teeth.py": (3, "teeth of gears and racks"),
+    "fabrication/wheel_plates.py": (2, "the same, on their plates"),
     "parts/beams/beam.py": (1, "the kind of a beam's support; spring is one"),
     "parts/vibration/follower.py": (1, "a law of cams of its own, not a driver's"),
 }
