@@ -33,7 +33,10 @@ def texts(svg: str) -> list[str]:
     return ["".join(each.itertext()) for each in root.iter("{http://www.w3.org/2000/svg}text")]
 
 
-@pytest.mark.parametrize(("name", "kind"), [("theo_jansen_leg", "side"), ("slider_crank_offset", "exploded")])
+@pytest.mark.parametrize(
+    ("name", "kind"),
+    [pytest.param("theo_jansen_leg", "side", marks=pytest.mark.rotating), ("slider_crank_offset", "exploded")],
+)
 def test_a_view_names_every_plate_and_pin(name: str, kind: str) -> None:
     found = texts(lw.plot(layers(name), kind).svg())
     for part in cut(name).parts:
@@ -43,11 +46,11 @@ def test_a_view_names_every_plate_and_pin(name: str, kind: str) -> None:
 
 
 def test_a_side_view_has_the_numbers_of_layers_and_the_height() -> None:
-    found = layers("theo_jansen_leg")
+    found = layers("slider_crank_offset")
     shown = texts(found.plot().svg())
     assert {str(each) for each in found.layer.values()} <= set(shown)
     tallest = max(
-        place.z + part.length + part.heads[1] for part in cut("theo_jansen_leg").parts for place in part.places
+        place.z + part.length + part.heads[1] for part in cut("slider_crank_offset").parts for place in part.places
     )
     assert f"{1e3 * tallest:.4g} mm" in shown
 
@@ -85,7 +88,7 @@ def bodies(content: bytes) -> dict[str, tuple[float, list[np.ndarray]]]:
     return found
 
 
-@pytest.mark.parametrize("name", ["theo_jansen_leg", "slider_crank_offset"])
+@pytest.mark.parametrize("name", [pytest.param("theo_jansen_leg", marks=pytest.mark.rotating), "slider_crank_offset"])
 def test_solids_are_as_heavy_as_the_list_says_and_fit_on_their_pins(name: str, tmp_path: Path) -> None:
     """Volume times density of steel is the mass of each part; where holes of plates are on a pin, they are in line,
     and the plates one above the other."""
@@ -132,6 +135,7 @@ def test_a_machine_without_layers_has_no_views() -> None:
         found.plot()
 
 
+@pytest.mark.rotating
 def test_a_sheet_has_the_section_where_the_file_says_how_the_machine_is_made() -> None:
     found = lw.sheet("gallery:plate_linkage", size="A2", section={"only": ["mechanism", "layers", "table_layers"]})
     assert set(found.panels) == {"mechanism", "layers", "table_layers"}
