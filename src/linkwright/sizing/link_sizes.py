@@ -28,11 +28,11 @@ NOTHING = 1e-9
 class LinkSizes(Tabular, Frozen):
     """Sizes of the links and pins of a ``mechanism`` from its largest forces.
 
-    ``material`` of links without one of their own, ``safety`` factor, ``running``: pressure of running pins that was
-    asked for, Pa, ``plate``: thickness of links without one of
-    their own, m, None where there are none; ``allowed``: what the links may bear, and ``thickness`` of all plates, m,
-    by the names of the links; ``links``: those with a width, the frame's among them; ``pins``; ``notes``: given sizes
-    that do not suffice, and what does not fit together.
+    ``material`` of links without one of their own; ``safety`` factor; ``running``: the pressure of running pins that
+    was asked for, Pa, None for the usual one; ``plate``: thickness of links without one of their own, m, None where
+    there are none; ``allowed``: what the links may bear, and ``thickness`` of all plates, m, by the names of the
+    links; ``links``: those with a width, the frame's among them; ``pins``; ``notes``: given sizes that do not
+    suffice, and what does not fit together.
     """
 
     row_names: ClassVar[str | None] = "link"

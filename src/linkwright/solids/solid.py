@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Literal
 
 from linkwright.shapes.shape import Shape
@@ -50,4 +50,4 @@ class Solids:
     by_name: Mapping[str, Solid]
     level: tuple[tuple[str, str], ...] = ()
     joined: frozenset[tuple[str, str]] = frozenset()
-    notes: tuple[str, ...] = field(default=())
+    notes: tuple[str, ...] = ()
