@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from tests import store
 
 import linkwright as lw
 
@@ -162,3 +163,17 @@ def test_worked_solution_can_be_followed(bracket: lw.LinkSizes) -> None:
     assert "w_3   = F_c·S_k/(t·σ_k) = 800 N·3/(6 mm·38.8616 MPa) = 10.2929 mm" in text
     assert "Eye around the pin" in text and "围绕" not in text
     assert "strut" in bracket.text() and "25 mm" in bracket.text()
+
+
+def test_sizes_by_rule_follow_the_width_that_the_file_gives() -> None:
+    """Bars 12 mm wide: pins of 6 mm in diameter, plates 3 mm thick."""
+    text = store.text("theo_jansen_leg") + "\nconstruction: {width: 12 mm}\n"
+    found = lw.cut_parts(lw.loads(text))
+    assert found["crank"].length == pytest.approx(0.003)
+    assert [hole.radius for hole in found["crank"].holes] == pytest.approx([0.003, 0.003])
+    (note,) = [str(each) for each in found.notes if "round shares" in str(each)]
+    assert "width of links, 12 mm" in note
+
+
+def test_materials_are_words_of_the_language() -> None:
+    assert "steel" not in lw.size_links(lw.load("gallery:toggle_press")).text("zh")

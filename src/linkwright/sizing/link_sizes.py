@@ -12,6 +12,7 @@ from linkwright.core.quantity import shown
 from linkwright.core.table import Amount, Cell, Table, Tabular
 from linkwright.equations.steps import Step, page
 from linkwright.errors import speaker
+from linkwright.fields.material import LABELS
 from linkwright.files.write import Document
 from linkwright.mechanism.construction import Material
 from linkwright.mechanism.mechanism import Mechanism
@@ -80,7 +81,7 @@ class LinkSizes(Tabular, Frozen):
                 "= {strength}, pins of steel with Re = {pin}, pressure of running pins up to {pressure}.",
                 safety=allowed.safety,
                 buckling=allowed.buckling,
-                material=allowed.material.name or pgettext("sizing", "their material"),
+                material=LABELS.get(allowed.material.name, pgettext("sizing", "their material")),
                 strength=Amount(allowed.material.strength, "pressure").text,
                 pin=Amount(PIN.strength, "pressure").text,
                 pressure=Amount(allowed.running, "pressure").text,

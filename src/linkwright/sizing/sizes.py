@@ -48,8 +48,15 @@ def _sizes(mechanism: Mechanism) -> Sizes:
     ruled = _by_rule(mechanism, given)
     if len(given.width) == len(given.thickness) == count and len(given.pin_radius) == len(mechanism.pins):
         return ruled
-    width = shown(usual_width(mechanism), "length")
+    width = shown(_usual_width(mechanism), "length")
     if not mechanism.has_loads:
+        if mechanism.construction is not None and mechanism.construction.width:
+            note = _(
+                "Sizes that the file does not give are round shares of the width of links, {width}: pins half as thick "
+                "as that, plates a quarter.",
+                width=width,
+            )
+            return _noted(ruled, note)
         note = _(
             "Sizes that the file does not give are round shares of the machine: width {width}, a twelfth of the "
             "usual length of links.",
@@ -97,11 +104,17 @@ def _by_forces(ruled: Sizes, sized: LinkSizes) -> Sizes:
 
 def _by_rule(mechanism: Mechanism, given: GivenSizes) -> Sizes:
     """Sizes by rule where the file gives none; no thinner than the pins that it gives need."""
-    usual, links = usual_width(mechanism), ("frame", *mechanism.links)
+    usual, links = _usual_width(mechanism), ("frame", *mechanism.links)
     width = {name: max(usual, _eye(mechanism, given, name)) for name in links} | dict(given.width)
     radius = {name: usual_pin_radius(min(width[link] for link in pin.joined)) for name, pin in mechanism.pins.items()}
     thickness = dict.fromkeys(links, usual_thickness(usual)) | dict(given.thickness)
     return Sizes(width, radius | dict(given.pin_radius), thickness)
+
+
+def _usual_width(mechanism: Mechanism) -> float:
+    """The width that the file gives for all links, else the one by rule, m."""
+    construction = mechanism.construction
+    return (construction.width if construction is not None else None) or usual_width(mechanism)
 
 
 def _eye(mechanism: Mechanism, given: GivenSizes, link: str) -> float:
