@@ -51,3 +51,4 @@ def test_a_cam_is_level_with_its_roller() -> None:
     assert found.by_name["pin compensating_cam"].plates == ("lower_rack", "roller lower_rack", "block rack_guide")
     assert found.by_name["hub bell_crank"].plates == ("bell_crank", "cam bell_crank")
     assert ("hub bell_crank", "pin O2") in found.joined
+    assert ("cam bell_crank", "pin compensating_cam") in found.joined
