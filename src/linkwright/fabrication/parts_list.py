@@ -59,6 +59,10 @@ PRESSED = _(
     "A pin is pressed into its lowest plate and all that move with that one (p); in the others it turns, and "
     "their holes are larger by the fit, {fit}. Posts are pressed in."
 )
+PRESSED_EXACT = _(
+    "A pin is pressed into its lowest plate and all that move with that one (p); in the others it turns in a hole of "
+    "its own diameter; larger ones: `fit` in the section construction. Posts are pressed in."
+)
 HEAD = _("{pin}, head Ø{head} × {height}")
 TWO_HEADS = _("{pin}, 2 heads Ø{head} × {height}")
 TOTAL = _("{count} parts, together {mass}.")
@@ -113,7 +117,7 @@ def tables(found: CutParts, language: str = "en") -> tuple[Table, ...]:
     count = sum(each.count for each in found.parts)
     notes = [
         translate(TOTAL.format(count=count, mass=f"{per_kg * found.mass:.4g} {unit}")),
-        translate(PRESSED.format(fit=shown(fit, "length"))),
+        translate(PRESSED.format(fit=shown(fit, "length")) if fit else PRESSED_EXACT),
         *found.notes,
     ]
     return (Table(heads, rows, ">" + "<>" + "<<" + ">>>" + "<", title, notes),)
