@@ -52,8 +52,8 @@ def _sizes(mechanism: Mechanism) -> Sizes:
     if not mechanism.has_loads:
         if mechanism.construction is not None and mechanism.construction.width:
             note = _(
-                "Sizes that the file does not give are round shares of the width of links, {width}: pins half as thick "
-                "as that, plates a quarter.",
+                "Sizes that the file does not give are round shares of the width of links, {width}: pins half as "
+                "thick as that, plates a quarter.",
                 width=width,
             )
             return _noted(ruled, note)

@@ -136,7 +136,7 @@ def add_cams(draft: Draft, found: list[Cam]) -> list[Axle]:
 
 
 def _add_roller(draft: Draft, cam: Cam, body: Body) -> Axle:
-    """A roller, an axle for the pin about which it turns; as the roller meets the cam, no gap to the pin is asked for."""
+    """A roller, an axle for the pin about which it turns; as the roller meets the cam, so does the pin for gaps."""
     joint = cam.joint
     name, at = draft.free_name(f"roller {joint.follower}"), draft.carriers.place(joint.follower, joint.at)
     draft.plate(name, "roller", body.carrier, disc(at, joint.roller_radius), joint.follower, cam.plate)

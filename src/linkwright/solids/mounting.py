@@ -20,8 +20,8 @@ ROLLER_PIN, PIN = 0.5, 0.25
 
 @dataclass(frozen=True)
 class Axle:
-    """A plate besides the link's own on one of its pins: the carrier, the centre in its axes, the plate, its hub or what
-    else its pin touches."""
+    """A plate besides the link's own on one of its pins: the carrier, the centre in its axes, the plate; its hub, or
+    what else its pin touches."""
 
     carrier: str
     centre: complex
