@@ -82,12 +82,14 @@ def _thinner(demands: Demands, first: str, second: str) -> Iterator[Change]:
 
 
 def _clear_of(demands: Demands, plate: str, other: str) -> Change:
-    """A plate kept clear of another body: by less width, unless it would still run over it as a mere line."""
-    width = demands.clear_width(plate, other)
+    """A plate kept clear of another body: by less width, unless it would still run over it as a mere line, or is a
+    wheel or a cam, which has none."""
+    sort = demands.solids.by_name[plate].sort
+    width = 0.0 if sort in ("wheel", "cam", "roller") else demands.clear_width(plate, other)
     names = {"plate": plate, "other": other}
     if width > 0.0:
         text = _("make {plate} less than {width} wide, clear of {other}", width=_rounded_down(width), **names)
-    elif demands.solids.by_name[plate].sort == "link":
+    elif sort == "link":
         text = _(
             "keep {plate} clear of {other} by a bent bar or other dimensions (less width is not enough)", **names
         )

@@ -83,3 +83,24 @@ def test_pins_too_thick_for_the_crank_between_them() -> None:
     )
     assert {found.conflicts[0].first, found.conflicts[0].second} == {"pin O", "pin A"}
     assert "Enough alone: make the radii of pin O and pin A together less than 40 mm." in found.remedies
+
+
+def test_a_wheel_cannot_be_made_narrower() -> None:
+    """The pinion, 44 mm across, reaches over the pin A on the wheel that it drives: no width of it would help."""
+    text = """
+format: 1
+name: pinion over a crank pin
+frame: {points: {G: [-60 mm, 0 mm], O: [0 mm, 0 mm], P: [150 mm, 0 mm]}}
+links:
+  pinion: {points: [G], also: {H: [15 mm, 0 mm]}}
+  wheel: {points: [O, A], length: 36 mm}
+  bar: {points: [A, B], length: 150 mm}
+  arm: {points: [P, B], length: 100 mm}
+joints: {mesh: {kind: gear, links: [pinion, wheel], teeth: [20, 40], module: 2 mm}}
+assembly: {B: left}
+driver: {turn: pinion, about: G, speed: 1 rad/s}
+construction: {width: 14 mm, pin_radius: 3 mm, thickness: 6 mm}
+"""
+    found = lw.layers(lw.loads(text))
+    assert not found.layer
+    assert "Enough alone: keep pinion clear of pin A by other dimensions." in found.remedies
