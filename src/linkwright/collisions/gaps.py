@@ -72,6 +72,9 @@ def smallest_gaps(
     host = [(one, other)[pose & 1].carrier for (one, other), pose in zip(asked, found.pose.tolist(), strict=True)]
     place, turn = paths.in_frame(host, found.piece, found.x)
     middle = place + turn * found.place
+    middle = np.where(np.abs(middle.real) > search.tolerance, middle.real, 0.0) + 1j * np.where(
+        np.abs(middle.imag) > search.tolerance, middle.imag, 0.0
+    )
     gaps = [
         Gap(size, at, value, each, exact=paths.exact)
         for size, at, value, each in zip(*(each.tolist() for each in (found.size, time, where, middle)), strict=True)

@@ -28,5 +28,5 @@ def _placed(body: Body) -> Iterator[Floats]:
     """The corners (k, 3, 3) of all triangles of a body at every place, in the axes of the machine, m."""
     mesh = mesh_of(body)
     for pose in body.poses:
-        plane = pose.at + pose.along * (mesh.corners[:, 0] + 1j * mesh.corners[:, 1])
+        plane = pose.of(np.asarray(mesh.corners[:, 0] + 1j * mesh.corners[:, 1]))
         yield np.column_stack([plane.real, plane.imag, pose.z + mesh.corners[:, 2]])[mesh.triangles]

@@ -75,12 +75,10 @@ class LayersPanel(Panel):
 
 def _table(subject: Subject, cut: CutParts) -> TablePanel:
     """The plates of every layer, from above, with the heights between which they lie."""
-    layers, words = cut.layers, subject.words
+    words = subject.words
     head: list[Words] = [words(_("Layer")), words(_("Plates")), words(_("Heights/mm"))]
     rows: list[list[Words]] = []
-    for layer in sorted(set(layers.layer.values()), reverse=True):
-        plates = [plate for plate, own in layers.layer.items() if own == layer]
-        ends = [each for plate in plates for each in layers.height[plate]]
-        heights = "–".join(number(each, "length", 4) for each in (min(ends), max(ends)))
-        rows.append([str(layer), ", ".join(called([cut[plate]], words) for plate in plates), heights])
+    for layer in (each for each in reversed(cut.layers.layers) if each.plates):
+        heights = "–".join(number(each, "length", 4) for each in (layer.low, layer.high))
+        rows.append([str(layer.number), ", ".join(called([cut[plate]], words) for plate in layer.plates), heights])
     return TablePanel("table_layers", 5.5, head, rows, words(_("Layers")), parts=1)

@@ -11,6 +11,7 @@ from math import dist
 from linkwright.core.arguments import integer, positive, real, require
 from linkwright.core.quantity import shown
 from linkwright.errors import LinkwrightError, RequestError
+from linkwright.fields.material import LABELS
 from linkwright.kinetostatics.run import solve_forces
 from linkwright.mechanism.construction import MATERIALS, Construction, LinkShape, Material
 from linkwright.mechanism.mechanism import Mechanism
@@ -162,7 +163,7 @@ class Sizing:
                 code="sizing.too_large",
                 name=self.mechanism.name,
                 force=shown(largest, "force", 3),
-                material=self.material.name or pgettext("sizing", "its material"),
+                material=LABELS.get(self.material.name) or pgettext("sizing", "its material"),
             )
         )
 

@@ -14,7 +14,7 @@ from linkwright.fabrication.section import LETTERS, Section, section, without
 from linkwright.pictures.picture import line_width, name_runs
 from linkwright.words import translate
 
-NAMES = ("theo_jansen_leg", "slider_crank_offset", "wedge")
+NAMES = (pytest.param("theo_jansen_leg", marks=pytest.mark.rotating), "slider_crank_offset", "wedge")
 
 
 @cache
