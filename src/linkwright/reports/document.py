@@ -48,6 +48,12 @@ def literal(text: str) -> str:
     return "".join(_HIDDEN.get(c, c) for c in text)
 
 
+def sentence_with_keys(text: str) -> str:
+    """A sentence that is printed as it is, but for keys of the model file between backticks, which are code."""
+    parts = text.split("`")
+    return "".join(f"`{part}`" if number % 2 else literal(part) for number, part in enumerate(parts))
+
+
 def unmarked(text: str) -> str:
     """A user's text without the signs that mark texts here."""
     return _PRIVATE.sub("", text)

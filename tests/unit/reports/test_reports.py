@@ -22,7 +22,7 @@ from linkwright.joints.cam import CamJoint
 from linkwright.kinetostatics.forces import reaction_pairs
 from linkwright.mechanism.wheels_and_cams import CamShape
 from linkwright.pictures.svg import natural_size
-from linkwright.reports.document import Figure, Formula, Heading, Paragraph, Table, plain
+from linkwright.reports.document import Figure, Formula, Heading, Paragraph, Table, literal, plain, sentence_with_keys
 from linkwright.reports.key_names import MODEL_KEYS
 from linkwright.reports.machine_results import ReportContext
 from linkwright.reports.numbers import typeset, without_rounding
@@ -470,3 +470,7 @@ def test_what_solve_notes_stands_in_the_report_too(language: str) -> None:
         ).translate(language)
         texts = [plain(b.text) for b in blocks if isinstance(b, Paragraph)]
         assert (apart in texts) == (section == "reactions")
+
+
+def test_keys_in_sentences_are_code_and_all_else_is_plain() -> None:
+    assert sentence_with_keys("set `fit` to 2*x") == f"set `fit` to 2{literal('*')}x"

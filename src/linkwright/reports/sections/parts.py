@@ -9,7 +9,7 @@ from linkwright.errors import LinkwrightError
 from linkwright.fabrication.cut_parts import CutParts, cut_parts
 from linkwright.fabrication.part_drawing import draw_part
 from linkwright.files.write import to_data
-from linkwright.reports.document import Block, Figure, Heading, Paragraph, literal, printed
+from linkwright.reports.document import Block, Figure, Heading, Paragraph, literal, printed, sentence_with_keys
 from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.section import section
 from linkwright.reports.sections.task import element_data
@@ -34,7 +34,7 @@ def parts(case: ReportContext) -> Iterator[Block]:
     (table,) = found.tables(case.language)
     yield printed(table, case.language, "parts")
     for note in table.notes:
-        yield Paragraph(literal(case.sentence(note)), "note")
+        yield Paragraph(sentence_with_keys(case.sentence(note)), "note")
     yield from _layers(case, found)
     yield Heading(translate(_("Plates")), 2)
     drawn = [(draw_part(each, case.language).svg, WIDE) for each in found.parts if each.sort == "plate"]
@@ -48,4 +48,4 @@ def _layers(case: ReportContext, found: CutParts) -> Iterator[Block]:
     yield printed(replace(plates, title=_("Plates by layers")), case.language, "layers")
     yield printed(pins, case.language, "pins")
     for note in (*plates.notes, *notes.notes[:2]):
-        yield Paragraph(literal(case.sentence(note)), "note")
+        yield Paragraph(sentence_with_keys(case.sentence(note)), "note")

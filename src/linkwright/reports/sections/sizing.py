@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from linkwright.errors import LinkwrightError
-from linkwright.reports.document import Block, Heading, Paragraph, literal, printed
+from linkwright.reports.document import Block, Heading, Paragraph, literal, printed, sentence_with_keys
 from linkwright.reports.machine_results import Missing, ReportContext
 from linkwright.reports.section import section
 from linkwright.reports.sections.method import step_blocks
@@ -25,7 +25,7 @@ def sizing(case: ReportContext) -> Iterator[Block]:
     yield printed(found.link_table(), case.language, "link-sizes")
     yield printed(found.pin_table(), case.language, "pin-sizes")
     for note in (*found.notes, *found.basis):
-        yield Paragraph(literal(case.sentence(note)), "note")
+        yield Paragraph(sentence_with_keys(case.sentence(note)), "note")
     for step in found.steps(case.translate):
         yield Heading(literal(step.title), 2)
         yield from step_blocks(step)
