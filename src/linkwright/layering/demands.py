@@ -14,6 +14,8 @@ from linkwright.shapes.shape import Shape, disc
 from linkwright.solids.solid import Solid, Solids
 
 BASE, COVER = "frame", "cover"
+#: Share of the machine's size by which gaps are found too small at most.
+ROUNDING = 1e-9
 #: A body or the heads of one.
 Piece = tuple[str, Part]
 
@@ -40,7 +42,7 @@ class Demands:
         apart = [
             Apart(one[0], other[0], (one[1], other[1]), gap)
             for (one, other), gap in self.gaps.items()
-            if gap.size <= 0.0 or gap.size < self.clearance
+            if gap.size <= 0.0 or gap.size < self.clearance - ROUNDING * self.motion.mechanism.size
         ]
         level = [Level(*each) for each in self.solids.level if {*each} <= self._known.keys()]
         demands: list[Demand] = [*(Fixed(*each) for each in self.fixed.items()), *level, *apart]
