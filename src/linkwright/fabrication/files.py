@@ -55,13 +55,14 @@ def files_of(
     require_language(language)
     for form in forms:
         if form not in ALL_FORMS:
+            hint = offered(form, ALL_FORMS, _("use one of these"))
             raise RequestError(
                 _(
                     'parts are written as {forms}, not as "{form}"; {hint}',
                     code="cut.no_form",
                     forms=ALL_FORMS,
                     form=form,
-                    hint=offered(form, ALL_FORMS, _("use one of these")),
+                    hint=hint,
                 )
             )
     construction = found.mechanism.construction

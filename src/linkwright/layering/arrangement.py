@@ -140,13 +140,9 @@ class Layers(Tabular, PlotMixin, Frozen):
         if found := [each for each in plates if each in self.layer]:
             return found
         names = [name for name, each in self.solids.by_name.items() if {*each.plates} & self.layer.keys()]
+        hint = offered(solid, names, _("in layers are: {names}"))
         raise RequestError(
-            _(
-                'there is no "{name}" in a layer; {hint}',
-                code="layers.no_solid",
-                name=solid,
-                hint=offered(solid, names, _("in layers are: {names}")),
-            )
+            _('there is no "{name}" in a layer; {hint}', code="layers.no_solid", name=solid, hint=hint)
         )
 
     @cached_property

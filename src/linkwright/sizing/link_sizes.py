@@ -75,13 +75,14 @@ class LinkSizes(Tabular, Frozen):
     def basis(self) -> tuple[Message, ...]:
         """What the sizes rest on."""
         allowed = Allowed.of(self.material, self.safety, self.running)
+        material = LABELS.get(allowed.material.name, pgettext("sizing", "their material"))
         return (
             _(
                 "Safety factor {safety:g} against yield, {buckling:g} against buckling; links of {material} with Re "
                 "= {strength}, pins of steel with Re = {pin}, pressure of running pins up to {pressure}.",
                 safety=allowed.safety,
                 buckling=allowed.buckling,
-                material=LABELS.get(allowed.material.name, pgettext("sizing", "their material")),
+                material=material,
                 strength=Amount(allowed.material.strength, "pressure").text,
                 pin=Amount(PIN.strength, "pressure").text,
                 pressure=Amount(allowed.running, "pressure").text,
