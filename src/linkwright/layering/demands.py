@@ -20,6 +20,11 @@ ROUNDING = 1e-9
 Piece = tuple[str, Part]
 
 
+def is_too_small(gap: Gap, clearance: float, motion: Motion) -> bool:
+    """Whether a gap is an overlap, or smaller than the clearance, m, by more than rounding."""
+    return gap.size <= 0.0 or gap.size < clearance - ROUNDING * motion.mechanism.size
+
+
 @dataclass(frozen=True, eq=False)
 class Demands:
     """The solids of a machine in motion, the plates whose layers are fixed (None: in all layers), and the smallest
@@ -42,7 +47,7 @@ class Demands:
         apart = [
             Apart(one[0], other[0], (one[1], other[1]), gap)
             for (one, other), gap in self.gaps.items()
-            if gap.size <= 0.0 or gap.size < self.clearance - ROUNDING * self.motion.mechanism.size
+            if is_too_small(gap, self.clearance, self.motion)
         ]
         level = [Level(*each) for each in self.solids.level if {*each} <= self._known.keys()]
         demands: list[Demand] = [*(Fixed(*each) for each in self.fixed.items()), *level, *apart]

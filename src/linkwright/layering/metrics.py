@@ -14,7 +14,7 @@ from linkwright.words import _
 
 def layer_count(metric: Metric, analysis: Analysis) -> Iterator[MetricValue]:
     """The fewest layers of a machine; raises LinkwrightError where shapes cannot be made."""
-    found = _layers(analysis)
+    found = layers(analysis.motion.mechanism)
     count = inf if found.conflicts else found.count
     yield metric.value(analysis, found.mechanism.name, count, remarks=_remarks(found))
 
@@ -22,22 +22,13 @@ def layer_count(metric: Metric, analysis: Analysis) -> Iterator[MetricValue]:
 def smallest_gap(metric: Metric, analysis: Analysis) -> Iterator[MetricValue]:
     """The smallest gap in one layer; none where nothing shares one. Raises LinkwrightError where shapes cannot be
     made."""
-    found = _layers(analysis)
+    found = layers(analysis.motion.mechanism)
     if (nearest := found.nearest) is None:
         return
     one, other, gap = nearest
     at = gap.input if isfinite(gap.input) else None
     place = (gap.place.real, gap.place.imag)
     yield metric.value(analysis, f"{one}–{other}", gap.size, at=at, place=place, remarks=_remarks(found))
-
-
-def _layers(analysis: Analysis) -> Layers:
-    """Found once for all numbers of a machine."""
-    key = ("layers", "")
-    if key not in analysis.cached:
-        analysis.cached[key] = layers(analysis.motion.mechanism)
-    found: Layers = analysis.cached[key]
-    return found
 
 
 def _remarks(found: Layers) -> tuple[Remark, ...]:

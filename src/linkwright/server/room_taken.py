@@ -17,6 +17,7 @@ from linkwright.files.model_file import read_text
 from linkwright.kinematics.motion import Motion
 from linkwright.kinematics.names import canonical
 from linkwright.layering.arrangement import Conflict, Layers
+from linkwright.layering.demands import is_too_small
 from linkwright.layering.layers_of import layers
 from linkwright.mechanism.mechanism import Mechanism
 from linkwright.server.loose import moving_part
@@ -169,7 +170,7 @@ def _collisions(arranged: Layers, motion: Motion) -> list[Plain]:
     pairs = [
         pair
         for pair, gap in arranged.gaps.items()
-        if {*pair} <= names and (gap.size <= 0.0 or gap.size < arranged.clearance)
+        if {*pair} <= names and is_too_small(gap, arranged.clearance, motion)
     ]
     moving = [(Moving(known[a].carrier, known[a].shape), Moving(known[b].carrier, known[b].shape)) for a, b in pairs]
     found = smallest_gaps(motion, moving, clearance=arranged.clearance, spans=True)
