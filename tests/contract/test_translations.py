@@ -3,10 +3,13 @@
 import ast
 import re
 import string
+from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
 from babel.messages.extract import extract_from_dir
+from tests.contract.sources import MODULES
 from tests.every import every
 from tests.unit.words.catalogued import sentences
 from tests.unit.words.pseudo import CLOSE, OPEN, PSEUDO, pseudo, pseudo_locale
@@ -22,6 +25,7 @@ KEYWORDS = {"_": None, "pgettext": ((1, "c"), 2), "ngettext": (1, 2)}
 ENGLISH = re.compile(r"[a-z]{3,} [a-z]{2,} ")
 
 
+@cache
 def extracted() -> set[str]:
     """The English texts of all messages in the source, with their contexts."""
     found = set()
@@ -31,6 +35,15 @@ def extracted() -> set[str]:
         for each in (text,) if isinstance(text, str) else text:
             found.add(f"{context or ''}|{each}")
     return found
+
+
+def called() -> Iterator[str]:
+    """The English texts of all calls of ``_`` in the source, read by Python's own parser."""
+    for module in MODULES:
+        for node in ast.walk(ast.parse((ROOT / module).read_text(encoding="utf-8"))):
+            match node:
+                case ast.Call(func=ast.Name(id="_"), args=[ast.Constant(value=str(text)), *_]):
+                    yield f"|{text}"
 
 
 def outside(text: str) -> str:
@@ -49,6 +62,11 @@ def test_every_message_is_in_the_catalogue_and_no_other() -> None:
     assert len(source) > 3500
     assert sorted(source - known) == []
     assert sorted(known - source) == []
+
+
+def test_no_message_is_hidden_from_extraction() -> None:
+    """In an f-string, or within another message, ``pybabel extract`` does not see one."""
+    assert sorted({*called()} - extracted()) == []
 
 
 @pytest.mark.parametrize("command", ["", *commands()])

@@ -84,7 +84,8 @@ class Program(click.Group):
         page = help_page(
             ctx, _("linkwright COMMAND [options]"), _("Linkwright: analysis and design of planar machines."), sections
         )
-        return f"{page}\n\n{ctx.obj.translate(_('linkwright COMMAND --help explains a command, with examples.'))}"
+        more = _("linkwright COMMAND --help explains a command, with examples.")
+        return f"{page}\n\n{ctx.obj.translate(more)}"
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
         """Commands and options that complete a word, with their help in the language of the session."""

@@ -71,5 +71,6 @@ def draw_operating_points(result: MotorDuty, request: Request) -> Figure:
     legend.add(
         translate(_("RMS: {torque} at {speed} rpm", torque=unit.text(result.rms), speed=f"{RPM * mean:.4g}")), point
     )
-    axes.set(xlabel="n (rpm)", ylabel=unit.label(f"{translate(_('torque of the motor'))} T"))
+    label = translate(_("torque of the motor"))
+    axes.set(xlabel="n (rpm)", ylabel=unit.label(f"{label} T"))
     return framed(figure, request.titled(result.title), request, legend)
